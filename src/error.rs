@@ -1,0 +1,67 @@
+//! The one error type: which input, what is wrong with it, and what to do.
+
+/// What kind of thing failed; decides the exit code of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// An option or a combination of options that makes no sense (exit code 2).
+    Usage,
+    /// A file or a value in it (exit code 3).
+    Input,
+    /// A device or a feature that is missing (exit code 4).
+    Device,
+    /// A check that did not hold: validation messages, a wrong picture (exit code 5).
+    Check,
+    /// A result that could not be written (exit code 6).
+    Output,
+}
+
+/// An error as the user reads it: `input: problem; remedy`.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{input}: {problem}; {remedy}")]
+pub struct Error {
+    pub kind: Kind,
+    /// The file, option, key or device at fault, named as the user knows it.
+    pub input: String,
+    /// What is wrong with it, with the offending value.
+    pub problem: String,
+    /// What to do about it, as an instruction.
+    pub remedy: String,
+}
+
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+impl Error {
+    pub fn usage(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self::new(Kind::Usage, input, problem, remedy)
+    }
+
+    pub fn input(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self::new(Kind::Input, input, problem, remedy)
+    }
+
+    pub fn device(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self::new(Kind::Device, input, problem, remedy)
+    }
+
+    pub fn check(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self::new(Kind::Check, input, problem, remedy)
+    }
+
+    pub fn output(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self::new(Kind::Output, input, problem, remedy)
+    }
+
+    fn new(kind: Kind, input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+        Self { kind, input: input.to_string(), problem: problem.to_string(), remedy: remedy.to_string() }
+    }
+
+    pub fn exit_code(&self) -> u8 {
+        match self.kind {
+            Kind::Usage => 2,
+            Kind::Input => 3,
+            Kind::Device => 4,
+            Kind::Check => 5,
+            Kind::Output => 6,
+        }
+    }
+}

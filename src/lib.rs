@@ -1,0 +1,29 @@
+//! Depthleap: a raw Vulkan volume renderer and bench for depth-bounds culling.
+//!
+//! A frame is data. Read in this order:
+//!
+//! 1. [`scene`]: what is to be seen: volume, transfer function, camera, sampling, method. Knows no Vulkan.
+//! 2. [`plan`]: scene to a flat list of steps anyone can print, with what was left out and why.
+//! 3. [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`reference`].
+//! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
+//! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
+//!
+//! Imports point one way: `error, math <- scene <- read, reference, shared, structure`; `error <- glsl, vulkan`;
+//! all of these `<- pass <- plan <- frame <- measure <- cli`.
+
+pub mod cli;
+pub mod error;
+pub mod frame;
+pub mod glsl;
+pub mod math;
+pub mod measure;
+pub mod pass;
+pub mod plan;
+pub mod read;
+pub mod reference;
+pub mod scene;
+pub mod shared;
+pub mod structure;
+pub mod vulkan;
+
+pub use error::{Error, Result};

@@ -1,0 +1,5 @@
+//! Formulas that the passes, the reference and the structures share: rays and boxes, interpolation, opacity.
+
+pub mod interpolate;
+pub mod opacity;
+pub mod ray;

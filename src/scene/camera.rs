@@ -1,0 +1,78 @@
+//! A perspective camera anywhere, inside the volume too.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::math::ray::ViewRays;
+
+/// Rays begin this far in front of the eye, in volume units (the volume's longest side is 1): near enough to
+/// miss nothing one could see, far enough from 0 that clip space can divide by it.
+pub const NEAR: f64 = 1e-4;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Positions in volume space.
+    pub eye: DVec3,
+    pub target: DVec3,
+    pub up: DVec3,
+    /// Vertical field of view in degrees, above 0 and below 180.
+    pub fov_y: f64,
+}
+
+/// Right, up and forward of a camera, orthonormal.
+#[derive(Clone, Copy, Debug)]
+pub struct Basis {
+    pub right: DVec3,
+    pub up: DVec3,
+    pub forward: DVec3,
+}
+
+impl Camera {
+    /// A camera on a sphere about the origin: `azimuth` turns about +y from +z towards +x, `elevation` lifts
+    /// towards +y, both in degrees.
+    pub fn orbit(azimuth: f64, elevation: f64, distance: f64, fov_y: f64) -> Self {
+        let (a, e) = (azimuth.to_radians(), elevation.to_radians());
+        let eye = distance * DVec3::new(a.sin() * e.cos(), e.sin(), a.cos() * e.cos());
+        Self { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y }
+    }
+
+    /// # Errors
+    /// When the camera has no view direction, `up` lies along it, or the field of view is not in (0, 180).
+    pub fn basis(&self) -> Result<Basis> {
+        let bad = |problem: String, remedy: &str| Err(Error::usage("camera", problem, remedy));
+        if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
+            return bad("has a coordinate that is not finite".into(), "give finite numbers for eye, target and up");
+        }
+        if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
+            return bad(format!("has a field of view of {} degrees", self.fov_y), "choose one above 0 and below 180");
+        }
+        let Some(forward) = (self.target - self.eye).try_normalize() else {
+            return bad(format!("eye and target are both at {}", self.eye), "move one of them");
+        };
+        let Some(right) = forward
+            .cross(self.up)
+            .try_normalize()
+            .filter(|_| forward.cross(self.up).length() > 1e-9 * self.up.length())
+        else {
+            return bad(
+                format!("`up` {} lies along the view direction", self.up),
+                "choose another `up`, --up 0,0,1 for example",
+            );
+        };
+        Ok(Basis { right, up: right.cross(forward), forward })
+    }
+
+    /// The rays through the pixels of a `size` = [width, height] image.
+    ///
+    /// # Errors
+    /// As [`Camera::basis`].
+    pub fn rays(&self, size: [u32; 2]) -> Result<ViewRays> {
+        let basis = self.basis()?;
+        let half_height = (0.5 * self.fov_y.to_radians()).tan();
+        let pixel = 2.0 * half_height / f64::from(size[1]);
+        let right = basis.right * pixel;
+        let down = -basis.up * pixel;
+        let base = basis.forward - right * (0.5 * f64::from(size[0])) - down * (0.5 * f64::from(size[1]));
+        Ok(ViewRays { eye: self.eye, base, right, down, near: NEAR })
+    }
+}

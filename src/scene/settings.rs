@@ -1,0 +1,293 @@
+//! The settings of a run: the scene file's sections and keys, each with its default. A run is repeated from
+//! these alone.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::camera::Camera;
+use super::field::NanPolicy;
+use super::volume::VoxelType;
+
+/// All keys of a scene file.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    pub volume: VolumeSettings,
+    pub transfer: TransferSettings,
+    pub camera: CameraSettings,
+    pub image: ImageSettings,
+    pub sampling: SamplingSettings,
+    pub method: MethodSettings,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct VolumeSettings {
+    /// A file, relative to the scene file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathBuf>,
+    /// `NAME:SIZE`, see [`super::builtin`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub builtin: Option<String>,
+    /// The scalar range, in the volume's own values.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    pub nan: NanPolicy,
+    /// Sizes, type and spacing of a raw file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dims: Option<[usize; 3]>,
+    #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
+    pub voxel_type: Option<VoxelType>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<[f64; 3]>,
+    pub texture: VolumeTexture,
+}
+
+/// How voxels are kept on the device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum VolumeTexture {
+    /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.
+    #[default]
+    Native,
+    R16,
+    R32f,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TransferSettings {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// A transfer function file, relative to the scene file: `{"points": [[x, r, g, b, a], ...]}`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Points [x, red, green, blue, opacity].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<[f64; 5]>>,
+    /// The length an opacity stands for, in voxels of the finest spacing.
+    pub reference: f64,
+}
+
+impl Default for TransferSettings {
+    fn default() -> Self {
+        Self { preset: None, file: None, points: None, reference: 1.0 }
+    }
+}
+
+/// The camera; the default looks along -z at the whole volume (a front face of 428 of 500 pixels, the thesis').
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraSettings {
+    pub eye: [f64; 3],
+    pub target: [f64; 3],
+    pub up: [f64; 3],
+    pub fov_y: f64,
+}
+
+impl Default for CameraSettings {
+    fn default() -> Self {
+        Self { eye: [0.0, 0.0, 1.91], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_y: 45.0 }
+    }
+}
+
+impl From<&CameraSettings> for Camera {
+    fn from(s: &CameraSettings) -> Self {
+        Self { eye: s.eye.into(), target: s.target.into(), up: s.up.into(), fov_y: s.fov_y }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ImageSettings {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Linear light; shows in PNG files where the picture is not opaque.
+    pub background: [f64; 3],
+    pub accumulate: Accumulate,
+}
+
+impl Default for ImageSettings {
+    fn default() -> Self {
+        Self { size: [500, 500], background: [0.0; 3], accumulate: Accumulate::Rgba32f }
+    }
+}
+
+/// The format colours are accumulated in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Accumulate {
+    #[default]
+    Rgba32f,
+    Rgba16f,
+    Rgba8,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SamplingSettings {
+    /// Distance between samples, in voxels of the finest spacing.
+    pub step: f64,
+    pub offset: Offset,
+    pub last: Last,
+    pub alpha: Alpha,
+    pub filter: Filter,
+    /// M: samples per main pass.
+    pub samples_per_pass: u32,
+    /// N: main passes; 0 takes as many as the longest ray of this view needs.
+    pub passes: u32,
+    /// T: a ray ends when its opacity is greater.
+    pub termination: f64,
+}
+
+impl Default for SamplingSettings {
+    fn default() -> Self {
+        Self {
+            step: 1.0,
+            offset: Offset::Left,
+            last: Last::Full,
+            alpha: Alpha::Exponential,
+            filter: Filter::Hardware,
+            samples_per_pass: 8,
+            passes: 0,
+            termination: 0.95,
+        }
+    }
+}
+
+/// Where in its step a sample is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Offset {
+    /// At its begin, as the papers do.
+    #[default]
+    Left,
+    Midpoint,
+}
+
+impl Offset {
+    /// In steps.
+    pub fn steps(self) -> f64 {
+        match self {
+            Self::Left => 0.0,
+            Self::Midpoint => 0.5,
+        }
+    }
+}
+
+/// What the last sample of a ray stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Last {
+    /// A whole step, as in the papers.
+    #[default]
+    Full,
+    /// What is left of the ray.
+    Partial,
+}
+
+/// How an opacity is brought from the reference length to the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Alpha {
+    /// 1 - (1 - a)^(step / reference).
+    #[default]
+    Exponential,
+    /// Used as it stands.
+    Paper,
+}
+
+/// Who interpolates the volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// The device's texture unit.
+    #[default]
+    Hardware,
+    /// The shader, in f32.
+    Exact,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MethodSettings {
+    pub name: MethodName,
+    pub cull: Cull,
+    pub mark: Mark,
+    /// Mark a ray as gone as soon as its next section lies beyond its end.
+    pub exit_lookahead: bool,
+    /// Block skipping also tests before the first main pass.
+    pub block_first: bool,
+}
+
+impl Default for MethodSettings {
+    fn default() -> Self {
+        Self { name: MethodName::NnOmni, cull: Cull::Auto, mark: Mark::Auto, exit_lookahead: true, block_first: false }
+    }
+}
+
+/// The render methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum MethodName {
+    /// Ray casting without acceleration [KW03 §2.1].
+    Rc,
+    /// Ray casting with early ray termination by early z [KW03 §2.1].
+    RcErt,
+    /// And with skipping of empty 8^3 blocks [KW03 §2.3].
+    RcBlock,
+    /// Near-neighbor skipping, distance in any direction [Thesis §5.3].
+    NnOmni,
+    /// The f64 reference: the same sum, on the CPU.
+    Cpu,
+}
+
+impl MethodName {
+    pub const ALL: [Self; 5] = [Self::Rc, Self::RcErt, Self::RcBlock, Self::NnOmni, Self::Cpu];
+
+    /// As on the command line, in files and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rc => "rc",
+            Self::RcErt => "rc-ert",
+            Self::RcBlock => "rc-block",
+            Self::NnOmni => "nn-omni",
+            Self::Cpu => "cpu",
+        }
+    }
+}
+
+/// How fragments are kept from running.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Cull {
+    /// What works on the device, checked there.
+    #[default]
+    Auto,
+    /// The device's depth bounds test.
+    Bounds,
+    /// An early, read-only depth test against the box drawn at the depth of the bound.
+    Ztest,
+    /// The shader looks and discards.
+    Discard,
+}
+
+/// How the intermediate pass stores its decision.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mark {
+    /// What works on the device, checked there.
+    #[default]
+    Auto,
+    /// `gl_FragDepth` with conservative depth.
+    Fragdepth,
+    /// `gl_FragDepth` as the thesis had it.
+    FragdepthAny,
+    /// A colour attachment, copied into the depth buffer.
+    Copy,
+}
