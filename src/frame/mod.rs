@@ -1,1 +1,17 @@
-//! (skeleton)
+//! Runs plans: on a device ([`gpu`]) or in f64 through the twins ([`cpu`]).
+
+pub mod compile;
+pub mod cpu;
+pub mod gpu;
+pub mod resident;
+pub mod schedule;
+pub mod self_check;
+pub mod structures;
+pub mod texture;
+mod upload;
+
+pub use cpu::{Counts, CpuFrame};
+pub use gpu::{EarlyEnd, FrameRun, GpuFrame, Measure};
+pub use resident::Resident;
+pub use self_check::{SelfCheck, Verdict, self_check};
+pub use structures::Structures;

@@ -2,4 +2,5 @@
 
 pub mod interpolate;
 pub mod opacity;
+pub mod polyhedron;
 pub mod ray;

@@ -1,1 +1,168 @@
-//! (skeleton)
+//! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
+
+mod passes;
+mod text;
+mod view;
+
+pub use view::{Region, View};
+
+use crate::error::{Error, Result};
+use crate::pass::Step;
+use crate::pass::cull::Form;
+use crate::pass::resource::Resource;
+use crate::scene::Scene;
+use crate::scene::settings::{Accumulate, Alpha, Cull, Filter, Last, Mark, MethodName};
+
+/// The frame of one scene, ready to be run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub view: View,
+    /// N, main passes.
+    pub passes: u32,
+    /// Cull and mark, where the method culls at all.
+    pub form: Option<Form>,
+    pub steps: Vec<Step>,
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Something a frame may have and this one has not.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct LeftOut {
+    pub what: String,
+    pub why: String,
+}
+
+/// Main passes beyond this many are refused: each is recorded, counted and timed by itself.
+const MOST_PASSES: u32 = 65_536;
+
+/// What `auto` stands for where nothing is known of the device: cull and mark of the papers.
+pub fn papers_form(method: MethodName) -> Option<Form> {
+    match method {
+        MethodName::Rc => None,
+        // KW03's own: the early z-test, and depth written by the shader.
+        MethodName::RcErt | MethodName::RcBlock | MethodName::Cpu => {
+            Some(Form { cull: Cull::Ztest, mark: Mark::Fragdepth })
+        }
+        MethodName::NnOmni => Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth }),
+    }
+}
+
+/// The form a scene asks for, `automatic` in place of what it leaves open.
+///
+/// # Errors
+/// When the method has no such form.
+pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
+    let method = &scene.settings.method;
+    let Some(automatic) = automatic else {
+        return Ok(None);
+    };
+    if method.name == MethodName::Cpu {
+        return Ok(Some(automatic));
+    }
+    let near_neighbor = method.name == MethodName::NnOmni;
+    let cull = match method.cull {
+        Cull::Auto if method.mark != Mark::Auto && method.mark != Mark::Copy && near_neighbor => Cull::Bounds,
+        Cull::Auto => automatic.cull,
+        cull => cull,
+    };
+    let mark = match method.mark {
+        // These two always mark by copy [DESIGN 2.3]; the papers' ray casters keep writing depth.
+        Mark::Auto if near_neighbor && matches!(cull, Cull::Ztest | Cull::Discard) => Mark::Copy,
+        Mark::Auto => automatic.mark,
+        mark => mark,
+    };
+    Form { cull, mark }.check(method.name).map(Some)
+}
+
+/// Plans the frame of a scene in the given form.
+///
+/// # Errors
+/// When the camera is not one, or the view needs more main passes than can be.
+pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
+    let view = View::new(scene)?;
+    let sampling = &scene.settings.sampling;
+    let needed = view.longest_samples.div_ceil(sampling.samples_per_pass);
+    let passes = if sampling.passes > 0 { sampling.passes } else { needed };
+    if passes > MOST_PASSES {
+        return Err(Error::usage(
+            format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
+            format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
+            "take longer steps or more samples a pass",
+        ));
+    }
+    let mut left_out = Vec::new();
+    let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
+    let steps = if passes == 0 {
+        leave("every pass", "no ray of this view meets the volume".to_owned());
+        Vec::new()
+    } else {
+        passes::steps(scene, &view, passes, form)
+    };
+    if passes > 0 {
+        leave_out(scene, form, &steps, &mut leave);
+    }
+    if sampling.passes == 0 && passes > 0 {
+        let diagonal = whole_diagonal(scene).div_ceil(sampling.samples_per_pass);
+        if diagonal > passes {
+            leave(
+                &format!("main passes {passes} to {}", diagonal - 1),
+                format!("the longest ray of this view has {} samples", view.longest_samples),
+            );
+        }
+    }
+    Ok(Plan { view, passes, form, steps, left_out })
+}
+
+/// Samples on the diagonal of the volume, the longest ray of any view.
+fn whole_diagonal(scene: &Scene) -> u32 {
+    let step = scene.settings.sampling.step * scene.field.finest();
+    (scene.field.extent().length() / step).ceil() as u32
+}
+
+fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl FnMut(&str, String)) {
+    let (method, sampling) = (&scene.settings.method, &scene.settings.sampling);
+    let uses = |r: Resource| steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+    let name = method.name.name();
+    if form.is_none() {
+        leave("intermediate passes and the depth buffer", format!("{name} culls no fragments"));
+    } else if !uses(Resource::Marks) {
+        leave("marks image and copies to depth", "the intermediate pass writes depth itself".to_owned());
+    }
+    if !uses(Resource::NearestDistance) {
+        leave("distance structure", format!("{name} does not look ahead"));
+    }
+    if !uses(Resource::BlockRange) {
+        leave("block ranges and their table", format!("{name} does not look at blocks"));
+    }
+    if scene.field.holes.is_none() {
+        leave("hole mask", "every voxel is a number, or is replaced by one".to_owned());
+    }
+    if sampling.alpha == Alpha::Paper {
+        leave("opacity correction", "alpha = \"paper\" takes opacities as they stand".to_owned());
+    } else if sampling.last == Last::Full && sampling.step == scene.transfer.reference {
+        leave("opacity correction", "the step is the reference length".to_owned());
+    }
+    if sampling.last == Last::Full {
+        leave("length of the last sample", "every sample stands for a whole step".to_owned());
+    }
+    if sampling.filter == Filter::Hardware {
+        leave("interpolation in the shader", "the texture unit interpolates".to_owned());
+    }
+    if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
+        leave("count of rays left", format!("there are no more than {} main passes", passes::BATCH));
+    }
+}
+
+/// Bytes a pixel of a target takes.
+pub fn bytes_per_pixel(resource: Resource, accumulate: Accumulate) -> u64 {
+    match resource {
+        Resource::Entry | Resource::Direction => 16,
+        Resource::Accumulated => match accumulate {
+            Accumulate::Rgba32f => 16,
+            Accumulate::Rgba16f => 8,
+            Accumulate::Rgba8 => 4,
+        },
+        Resource::Stored | Resource::Marks => 4,
+        _ => 0,
+    }
+}

@@ -1,1 +1,62 @@
-//! (skeleton)
+//! The f64 reference: a twin of every pass, under the same stem, and an independent exact integrator.
+
+pub mod block_skip;
+pub mod direction;
+pub mod entry;
+pub mod main_pass;
+pub mod near_neighbor;
+pub mod samples;
+pub mod section;
+pub mod termination;
+
+use glam::DVec3;
+
+use crate::math::ray::ViewRays;
+use crate::scene::Scene;
+use crate::structure::blocks::Blocks;
+use crate::structure::distance::DistanceField;
+
+/// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
+pub const DEAD: f64 = 1.0;
+
+/// What every twin knows of the frame.
+#[derive(Clone, Copy)]
+pub struct Twin<'a> {
+    pub scene: &'a Scene,
+    pub rays: ViewRays,
+    /// N, main passes of the frame.
+    pub passes: u32,
+    pub distance: Option<&'a DistanceField>,
+    pub blocks: Option<&'a Blocks>,
+}
+
+/// One pixel of every image of the frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pixel {
+    pub column: u32,
+    pub row: u32,
+    /// ENTRY, texture coordinates.
+    pub entry: DVec3,
+    /// DIR: unit direction and length, volume space.
+    pub direction: DVec3,
+    pub length: f64,
+    /// RES, premultiplied RGBA.
+    pub accumulated: [f64; 4],
+    /// The depth buffer.
+    pub stored: f64,
+    /// f32 cannot decide whether a sample is on the ray, on which side of a jump it lies, or whether the ray
+    /// is saturated; the pixel may differ by more than rounding.
+    pub undecided: bool,
+}
+
+/// What a pass did with a pixel it ran for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Nothing that shows.
+    Silent,
+    /// It took a sample of non-zero opacity.
+    Contributed,
+}
+
+/// The f64 form of a pass: one pixel, the main pass it belongs to.
+pub type TwinPass = fn(&Twin, &mut Pixel, u32) -> Effect;

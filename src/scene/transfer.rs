@@ -99,6 +99,12 @@ impl TransferFunction {
             || self.knots.iter().any(|k| k.opacity > 0.0 && low <= k.x && k.x <= high)
     }
 
+    /// The same function over another scale: every knot moved by `map`, which must not fall.
+    pub fn mapped(&self, map: impl Fn(f64) -> f64) -> Self {
+        let knots = self.knots.iter().map(|k| Knot { x: map(k.x), ..*k }).collect();
+        Self { name: self.name.clone(), knots, reference: self.reference }
+    }
+
     /// Places where colour or opacity jumps.
     pub fn jumps(&self) -> impl Iterator<Item = f64> + '_ {
         self.knots.windows(2).filter(|k| k[0].x == k[1].x).map(|k| k[0].x)

@@ -1,1 +1,107 @@
-//! (skeleton)
+//! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::math::ray::ViewRays;
+use crate::scene::Scene;
+use crate::scene::transfer::TransferFunction;
+
+/// A number as two f32: itself rounded, and what rounding took (`glsl/shared/double_float.glsl`).
+fn double_float(value: f64) -> [f32; 2] {
+    let high = value as f32;
+    [high, (value - f64::from(high)) as f32]
+}
+
+/// Three numbers as two vec4: high parts, low parts.
+fn double_floats(value: glam::DVec3) -> [[f32; 4]; 2] {
+    let [x, y, z] = value.to_array().map(double_float);
+    [[x[0], y[0], z[0], 0.0], [x[1], y[1], z[1], 0.0]]
+}
+
+/// `Frame` of `glsl/shared/frame.glsl`, where its members are explained.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Frame {
+    pub eye: [[f32; 4]; 2],
+    pub base: [[f32; 4]; 2],
+    pub right: [[f32; 4]; 2],
+    pub down: [[f32; 4]; 2],
+    pub extent: [[f32; 4]; 2],
+    pub inverse_extent: [[f32; 4]; 2],
+    pub dims: [f32; 4],
+    pub near: f32,
+    pub step_length: f32,
+    pub inverse_step: f32,
+    pub offset: f32,
+    pub termination: f32,
+    pub exponent: f32,
+    pub segment_voxels: f32,
+    pub passes: u32,
+}
+
+impl Frame {
+    pub fn new(scene: &Scene, rays: &ViewRays, passes: u32) -> Self {
+        let sampling = &scene.settings.sampling;
+        let step = sampling.step * scene.field.finest();
+        let dims = scene.field.dims().map(|n| n as f32);
+        Self {
+            eye: double_floats(rays.eye),
+            base: double_floats(rays.base),
+            right: double_floats(rays.right),
+            down: double_floats(rays.down),
+            extent: double_floats(scene.field.extent()),
+            inverse_extent: double_floats(1.0 / scene.field.extent()),
+            dims: [dims[0], dims[1], dims[2], 0.0],
+            near: rays.near as f32,
+            step_length: step as f32,
+            inverse_step: (1.0 / step) as f32,
+            offset: sampling.offset.steps() as f32,
+            termination: sampling.termination as f32,
+            exponent: (sampling.step / scene.transfer.reference) as f32,
+            segment_voxels: (f64::from(sampling.samples_per_pass) * sampling.step) as f32,
+            passes,
+        }
+    }
+}
+
+/// `Step` of `glsl/shared/frame.glsl`: the push constants of a step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Step {
+    pub bound: f32,
+    pub pass: u32,
+}
+
+/// `Piece` of `glsl/shared/transfer.glsl`: one linear piece of a transfer function.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Piece {
+    pub rgba: [f32; 4],
+    pub change: [f32; 4],
+    pub begin: f32,
+    pub inverse_length: f32,
+    pub unused: [f32; 2],
+}
+
+/// The pieces of a transfer function whose knots are in units of the volume texture; the last one is endless.
+pub fn pieces(transfer: &TransferFunction) -> Vec<Piece> {
+    let knots = transfer.knots();
+    let rgba = |i: usize| {
+        let k = &knots[i];
+        [k.color[0] as f32, k.color[1] as f32, k.color[2] as f32, k.opacity as f32]
+    };
+    (0..knots.len())
+        .map(|i| {
+            let (begin, next) = (knots[i].x as f32, knots.get(i + 1).map(|k| k.x as f32));
+            // A piece shorter than f32 can tell is a jump; the search never stops at it.
+            let length = next.map_or(0.0, |next| next - begin);
+            let (inverse_length, change) = if length > 0.0 {
+                let (a, b) = (rgba(i), rgba(i + 1));
+                (1.0 / length, std::array::from_fn(|c| b[c] - a[c]))
+            } else {
+                (0.0, [0.0; 4])
+            };
+            Piece { rgba: rgba(i), change, begin, inverse_length, unused: [0.0; 2] }
+        })
+        .collect()
+}

@@ -1,0 +1,69 @@
+// Intermediate pass of `rc-block`: stopping criterion and empty-space skipping [KW03 §2.3, Thesis §5.2.4].
+// IF(RES[x][y] > T) OR (EmptySpace == TRUE) THEN z = MAX ELSE z = 0. Runs for every fragment.
+//
+// Departures: 1. KW03 looks into the coarse volume every 8 steps and may miss a block between; here the block
+// of every sample of the segment is asked. 2. Blocks hold the range of 9^3 voxels, since interpolation reaches
+// the neighbour. 3. An empty segment is marked apart from a dead ray, so that the frame knows when all are dead.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@variant fragdepth MARK_FRAGDEPTH
+//@variant fragdepth-any MARK_FRAGDEPTH_ANY
+//@variant copy MARK_COPY
+
+#include "shared/frame.glsl"
+#include "shared/mark.glsl"
+#include "shared/samples.glsl"
+#include "shared/cell.glsl"
+#include "shared/block.glsl"
+
+layout(set = 0, binding = 7) uniform sampler2D accumulated;
+layout(set = 0, binding = 8, std430) readonly buffer BlockRange {
+    vec2 ranges[];
+} block_range;
+// CT [KW03 §2.3]: whether anything shows between a minimum and a maximum.
+layout(set = 0, binding = 9) uniform usampler2D block_table;
+
+// Depth of a ray whose next segment is empty.
+const float SKIPPED = 0.5;
+// A sample this near (in steps) beyond the face of a block is asked for by itself: f32 cannot tell its side.
+const float BOUNDARY = 1e-3;
+
+bool block_visible(ivec3 block) {
+    ivec3 blocks = block_count(ivec3(frame.dims.xyz));
+    vec2 range = block_range.ranges[(block.z * blocks.y + block.y) * blocks.x + block.x];
+    return texelFetch(block_table, range_codes(range), 0).r != 0u;
+}
+
+// Steps from `position` until the ray leaves `block`.
+float steps_inside(vec3 position, vec3 step_vector, ivec3 block) {
+    // Block b covers the cells 8b to 8b + 7: voxel coordinates 8b + 0.5 to 8b + 8.5.
+    vec3 voxel = position * frame.dims.xyz - 0.5;
+    vec3 voxels_per_step = step_vector * frame.dims.xyz;
+    vec3 face = float(BLOCK) * vec3(block + ivec3(greaterThan(voxels_per_step, vec3(0.0))));
+    vec3 steps = mix((face - voxel) / voxels_per_step, vec3(1e9), equal(voxels_per_step, vec3(0.0)));
+    return min(steps.x, min(steps.y, steps.z));
+}
+
+bool segment_visible(Ray ray, uint first, uint end) {
+    for (uint i = first; i < end;) {
+        vec3 position = sample_position(ray, i);
+        ivec3 block = cell_at(position) / BLOCK;
+        if (block_visible(block)) {
+            return true;
+        }
+        i += uint(max(floor(steps_inside(position, ray.step_vector, block) - BOUNDARY), 0.0)) + 1u;
+    }
+    return false;
+}
+
+void main() {
+    Ray ray = load_ray();
+    uint first = this_step.pass * SAMPLES_PER_PASS;
+    uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+    bool saturated = texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination;
+    if (first >= end || saturated) {
+        MARK(DEAD);
+    } else {
+        MARK(segment_visible(ray, first, end) ? 0.0 : SKIPPED);
+    }
+}

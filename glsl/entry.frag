@@ -1,0 +1,23 @@
+// Pass 1, entry point determination [KW03 §2.1, Thesis §5.2.2]: front faces of the box (with a cap where the
+// near plane cuts it), texture coordinates as colour.
+//
+// Departure: the coordinates are those of the ray through the pixel's centre rather than interpolated from the
+// vertices, which rasterisers move to a raster of 1/256 pixel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/frame.glsl"
+#include "shared/double_float.glsl"
+#include "shared/ray.glsl"
+
+layout(location = 0) out vec4 entry;
+
+void main() {
+    vec2 pixel = gl_FragCoord.xy;
+    Interval interval = box_interval(pixel);
+    for (int axis = 0; axis < 3; ++axis) {
+        vec2 coordinate = texture_coordinate(pixel, interval.enter, axis, interval.enter_axis, false);
+        entry[axis] = clamp(coordinate.x + coordinate.y, 0.0, 1.0);
+    }
+    entry.w = 1.0;
+}

@@ -1,0 +1,67 @@
+// Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs.
+// Needs frame.glsl and double_float.glsl.
+
+// Beyond every volume, in volume units.
+const float FAR_AWAY = 3.0e38;
+
+// One component (0, 1, 2) of the direction through a pixel (`pixel` in pixels, centres at + 0.5), with
+// component 1 along the view direction.
+vec2 ray_direction(vec2 pixel, int axis) {
+    vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(frame.right[0][axis], frame.right[1][axis]));
+    vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(frame.down[0][axis], frame.down[1][axis]));
+    return df_add(vec2(frame.base[0][axis], frame.base[1][axis]), df_add(along_x, along_y));
+}
+
+vec2 eye_coordinate(int axis) {
+    return vec2(frame.eye[0][axis], frame.eye[1][axis]);
+}
+
+// Depths between which the ray is inside the box and beyond the near plane: enter and leave, and the axis
+// whose face it meets there (-1: the near plane). A ray that misses has enter >= leave.
+struct Interval {
+    vec2 enter;
+    vec2 leave;
+    int enter_axis;
+    int leave_axis;
+};
+
+Interval box_interval(vec2 pixel) {
+    Interval interval = Interval(vec2(frame.near, 0.0), vec2(FAR_AWAY, 0.0), -1, -1);
+    for (int axis = 0; axis < 3; ++axis) {
+        vec2 direction = ray_direction(pixel, axis);
+        vec2 eye = eye_coordinate(axis);
+        vec2 half_side = 0.5 * vec2(frame.extent[0][axis], frame.extent[1][axis]);
+        if (direction.x == 0.0) {
+            if (abs(eye.x) > half_side.x) {
+                interval.leave = vec2(0.0);
+            }
+            continue;
+        }
+        vec2 low = df_divide(df_add(-half_side, -eye), direction);
+        vec2 high = df_divide(df_add(half_side, -eye), direction);
+        bool forward = direction.x > 0.0;
+        vec2 first = forward ? low : high;
+        vec2 second = forward ? high : low;
+        if (df_less(interval.enter, first)) {
+            interval.enter = first;
+            interval.enter_axis = axis;
+        }
+        if (df_less(second, interval.leave)) {
+            interval.leave = second;
+            interval.leave_axis = axis;
+        }
+    }
+    return interval;
+}
+
+// Texture coordinate (double-float) along `axis` of the point at `depth`; exactly 0 or 1 on the face the
+// ray meets there.
+vec2 texture_coordinate(vec2 pixel, vec2 depth, int axis, int face_axis, bool leaving) {
+    vec2 direction = ray_direction(pixel, axis);
+    if (axis == face_axis) {
+        return vec2((direction.x > 0.0) == leaving ? 1.0 : 0.0, 0.0);
+    }
+    vec2 point = df_add(eye_coordinate(axis), df_multiply(depth, direction));
+    vec2 inverse_extent = vec2(frame.inverse_extent[0][axis], frame.inverse_extent[1][axis]);
+    return df_add(df_multiply(point, inverse_extent), vec2(0.5, 0.0));
+}

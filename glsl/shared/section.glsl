@@ -1,0 +1,22 @@
+// Sections of the depth range, one a main pass [Thesis §5.3]: the lower half, [0, 0.5), cut into N.
+// Twin: src/reference/section.rs. Needs frame.glsl and mark.glsl.
+
+// Where inside its section a mark lies.
+#ifdef MARK_FRAGDEPTH_ANY
+const float AHEAD = 0.25;
+const float ARRIVED = 0.75;
+#else
+const float AHEAD = 0.5;
+const float ARRIVED = 0.5;
+#endif
+
+// Depth that marks `section`; `arrived` when it is the one of the pass that marks.
+float section_depth(uint section, bool arrived) {
+    return (float(section) + (arrived ? ARRIVED : AHEAD)) / (2.0 * float(frame.passes));
+}
+
+// Whole segments within `free` voxels that hold no contributing sample. The last sample of m segments lies at
+// (m M - 1) steps, a whole step before their end, so rounding up by a millionth of a segment is safe.
+uint passes_skipped(float free) {
+    return uint(floor(free / frame.segment_voxels + 1e-6));
+}

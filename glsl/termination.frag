@@ -1,0 +1,22 @@
+// Intermediate pass of `rc-ert`: stopping criterion [KW03 §2.1 "Intermediate passes", Thesis §5.2.2].
+// IF(RES[x][y] > T) THEN z = MAX ELSE z = 0. Runs for every fragment, since it writes depth.
+//
+// Departure: that a ray has left the volume is known from its length, not from an opacity of 1 in RES.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@variant fragdepth MARK_FRAGDEPTH
+//@variant fragdepth-any MARK_FRAGDEPTH_ANY
+//@variant copy MARK_COPY
+
+#include "shared/frame.glsl"
+#include "shared/mark.glsl"
+#include "shared/samples.glsl"
+
+layout(set = 0, binding = 7) uniform sampler2D accumulated;
+
+void main() {
+    Ray ray = load_ray();
+    bool gone = this_step.pass * SAMPLES_PER_PASS >= ray.samples;
+    bool saturated = texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination;
+    MARK(gone || saturated ? DEAD : 0.0);
+}

@@ -1,0 +1,348 @@
+//! Plan to device objects: targets, render passes, framebuffers, pipelines, descriptor sets. Made once, run often.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::resident::Resident;
+use super::schedule::{Barrier, schedule};
+use crate::error::{Error, Result};
+use crate::glsl;
+use crate::pass::resource::{Resource, Usage};
+use crate::pass::{Draw, Faces, Step, Work};
+use crate::plan::{Plan, Region};
+use crate::scene::Scene;
+use crate::scene::settings::{Accumulate, Filter};
+use crate::shared;
+use crate::vulkan::{
+    Blend, Buffer, BufferInfo, DepthState, DescriptorSet, Device, Framebuffer, GraphicsPipeline, GraphicsPipelineInfo,
+    Image, ImageInfo, Place, RenderPass, RenderPassInfo, Sampler, Shader,
+};
+
+/// The objects of a frame.
+pub struct Compiled {
+    pub steps: Vec<CompiledStep>,
+    pub vertices: Option<Buffer>,
+    pub targets: HashMap<Resource, Image>,
+    pub marks_buffer: Option<Buffer>,
+    pub region: Region,
+    pub clear_layouts: HashMap<Resource, vk::ImageLayout>,
+}
+
+pub struct CompiledStep {
+    pub step: Step,
+    pub barriers: Vec<Barrier>,
+    pub draw: Option<CompiledDraw>,
+    /// Where RES is once the step has run, for whoever reads the picture then.
+    pub accumulated_layout: Option<vk::ImageLayout>,
+}
+
+/// What a draw binds. Steps of the same kind share the objects.
+#[derive(Clone)]
+pub struct CompiledDraw {
+    pub render_pass: Arc<RenderPass>,
+    pub framebuffer: Arc<Framebuffer>,
+    pub pipeline: Arc<GraphicsPipeline>,
+    pub set: Arc<DescriptorSet>,
+    pub clears: Vec<vk::ClearValue>,
+    pub first_vertex: u32,
+    pub vertices: u32,
+}
+
+/// Steps that agree in all of this share one pipeline.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct PipelineKey {
+    render_pass: RenderPassInfo,
+    shader: Option<String>,
+    constants: Vec<(&'static str, u32)>,
+    test: crate::pass::DepthTest,
+    blend: bool,
+}
+
+struct Compiler<'a> {
+    device: &'a Arc<Device>,
+    plan: &'a Plan,
+    resident: &'a Resident,
+    targets: HashMap<Resource, Image>,
+    frame: Buffer,
+    linear: Option<Sampler>,
+    nearest: Sampler,
+    shaders: HashMap<String, Arc<Shader>>,
+    render_passes: HashMap<RenderPassInfo, Arc<RenderPass>>,
+    framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
+    pipelines: HashMap<PipelineKey, Arc<GraphicsPipeline>>,
+    sets: HashMap<PipelineKey, Arc<DescriptorSet>>,
+}
+
+/// The format of a target.
+pub fn target_format(resource: Resource, accumulate: Accumulate) -> vk::Format {
+    match resource {
+        Resource::Accumulated => match accumulate {
+            Accumulate::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
+            Accumulate::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
+            Accumulate::Rgba8 => vk::Format::R8G8B8A8_UNORM,
+        },
+        Resource::Stored => vk::Format::D32_SFLOAT,
+        Resource::Marks => vk::Format::R32_SFLOAT,
+        _ => vk::Format::R32G32B32A32_SFLOAT,
+    }
+}
+
+/// Makes every object the plan's graphics steps need.
+///
+/// # Errors
+/// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
+pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &Resident) -> Result<Compiled> {
+    let steps: Vec<Step> = plan.steps.iter().filter(|s| !matches!(s.work, Work::Dispatch { .. })).cloned().collect();
+    let accumulate = scene.settings.image.accumulate;
+    let scheduled = schedule(&steps, |r| target_format(r, accumulate));
+    let mut compiler = Compiler {
+        device,
+        plan,
+        resident,
+        targets: targets(device, plan, accumulate)?,
+        frame: frame_buffer(device, scene, plan)?,
+        linear: match scene.settings.sampling.filter {
+            Filter::Hardware => Some(Sampler::new(device, "trilinear", true)?),
+            Filter::Exact => None,
+        },
+        nearest: Sampler::new(device, "nearest", false)?,
+        shaders: HashMap::new(),
+        render_passes: HashMap::new(),
+        framebuffers: HashMap::new(),
+        pipelines: HashMap::new(),
+        sets: HashMap::new(),
+    };
+    let mut compiled = Vec::with_capacity(steps.len());
+    let mut clear_layouts = HashMap::new();
+    for (step, scheduled) in steps.into_iter().zip(scheduled) {
+        let draw = match (&step.work, scheduled.render_pass) {
+            (Work::Draw(draw), Some(info)) => Some(compiler.draw(&step, draw, info, &scheduled.targets)?),
+            _ => None,
+        };
+        if let Work::Clear(resource) = step.work {
+            clear_layouts.insert(resource, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
+        }
+        compiled.push(CompiledStep {
+            accumulated_layout: scheduled.layouts.get(&Resource::Accumulated).copied(),
+            step,
+            barriers: scheduled.barriers,
+            draw,
+        });
+    }
+    let marks_buffer = compiler
+        .targets
+        .contains_key(&Resource::Marks)
+        .then(|| {
+            Buffer::new(
+                device,
+                BufferInfo {
+                    name: Resource::MarksBuffer.name().to_owned(),
+                    size: plan.view.region.pixels() * 4,
+                    usage: vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST,
+                    place: Place::Device,
+                },
+            )
+        })
+        .transpose()?;
+    Ok(Compiled {
+        steps: compiled,
+        vertices: vertex_buffer(device, plan)?,
+        targets: compiler.targets,
+        marks_buffer,
+        region: plan.view.region,
+        clear_layouts,
+    })
+}
+
+fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<HashMap<Resource, Image>> {
+    let mut usages: HashMap<Resource, vk::ImageUsageFlags> = HashMap::new();
+    for access in plan.steps.iter().flat_map(|s| &s.accesses).filter(|a| a.resource.is_target()) {
+        let flags = usages.entry(access.resource).or_default();
+        *flags |= match access.usage {
+            Usage::Color => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            Usage::DepthWrite | Usage::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            Usage::CopySource => vk::ImageUsageFlags::TRANSFER_SRC,
+            Usage::CopyTarget => vk::ImageUsageFlags::TRANSFER_DST,
+            _ => vk::ImageUsageFlags::SAMPLED,
+        };
+        if access.resource == Resource::Accumulated {
+            // The picture is read back.
+            *flags |= vk::ImageUsageFlags::TRANSFER_SRC;
+        }
+    }
+    let accumulated = target_format(Resource::Accumulated, accumulate);
+    if !device.format_supports(accumulated, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
+        return Err(Error::device(
+            &device.info.name,
+            format!("cannot blend into {accumulated:?}"),
+            "choose another image.accumulate: rgba32f, rgba16f or rgba8",
+        ));
+    }
+    let [width, height] = plan.view.size;
+    usages
+        .into_iter()
+        .map(|(resource, usage)| {
+            let info = ImageInfo {
+                name: resource.name().to_owned(),
+                extent: [width, height, 1],
+                format: target_format(resource, accumulate),
+                usage,
+                volume: false,
+            };
+            Ok((resource, Image::new(device, info)?))
+        })
+        .collect()
+}
+
+fn frame_buffer(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<Buffer> {
+    let frame = shared::Frame::new(scene, &plan.view.rays, plan.passes);
+    let buffer = Buffer::new(
+        device,
+        BufferInfo {
+            name: Resource::Frame.name().to_owned(),
+            size: size_of_val(&frame) as u64,
+            usage: vk::BufferUsageFlags::UNIFORM_BUFFER,
+            place: Place::Upload,
+        },
+    )?;
+    buffer.write(0, bytemuck::bytes_of(&frame))?;
+    Ok(buffer)
+}
+
+/// Front triangles, then back triangles.
+fn vertex_buffer(device: &Arc<Device>, plan: &Plan) -> Result<Option<Buffer>> {
+    let corners: Vec<[f32; 3]> = [plan.view.front.as_slice(), &plan.view.back].concat();
+    if corners.is_empty() {
+        return Ok(None);
+    }
+    let buffer = Buffer::new(
+        device,
+        BufferInfo {
+            name: Resource::Box.name().to_owned(),
+            size: size_of_val(corners.as_slice()) as u64,
+            usage: vk::BufferUsageFlags::VERTEX_BUFFER,
+            place: Place::Upload,
+        },
+    )?;
+    buffer.write(0, bytemuck::cast_slice(&corners))?;
+    Ok(Some(buffer))
+}
+
+impl Compiler<'_> {
+    fn draw(&mut self, step: &Step, draw: &Draw, info: RenderPassInfo, targets: &[Resource]) -> Result<CompiledDraw> {
+        let render_pass = self.render_pass(&info)?;
+        let framebuffer = self.framebuffer(&render_pass, targets)?;
+        let key = PipelineKey {
+            render_pass: info,
+            shader: draw.shader.clone(),
+            constants: draw.constants.clone(),
+            test: draw.test,
+            blend: draw.blend,
+        };
+        let pipeline = self.pipeline(&key, step, &render_pass)?;
+        let set = self.set(&key, step, &pipeline)?;
+        let (front, back) = (self.plan.view.front.len() as u32, self.plan.view.back.len() as u32);
+        let (first_vertex, vertices) = match draw.faces {
+            Faces::Front => (0, front),
+            Faces::Back => (front, back),
+        };
+        Ok(CompiledDraw {
+            clears: vec![vk::ClearValue::default(); targets.len()],
+            render_pass,
+            framebuffer,
+            pipeline,
+            set,
+            first_vertex,
+            vertices,
+        })
+    }
+
+    fn render_pass(&mut self, info: &RenderPassInfo) -> Result<Arc<RenderPass>> {
+        if let Some(known) = self.render_passes.get(info) {
+            return Ok(known.clone());
+        }
+        let made = Arc::new(RenderPass::new(self.device, info.clone())?);
+        self.render_passes.insert(info.clone(), made.clone());
+        Ok(made)
+    }
+
+    fn framebuffer(&mut self, pass: &Arc<RenderPass>, targets: &[Resource]) -> Result<Arc<Framebuffer>> {
+        let key = (pass.info.clone(), targets.to_vec());
+        if let Some(known) = self.framebuffers.get(&key) {
+            return Ok(known.clone());
+        }
+        let images: Vec<&Image> = targets.iter().map(|t| &self.targets[t]).collect();
+        let made = Arc::new(Framebuffer::new(self.device, &pass.info.name, pass, &images, self.plan.view.size)?);
+        self.framebuffers.insert(key, made.clone());
+        Ok(made)
+    }
+
+    fn shader(&mut self, name: &str) -> Result<Arc<Shader>> {
+        if let Some(known) = self.shaders.get(name) {
+            return Ok(known.clone());
+        }
+        let made = Arc::new(Shader::new(name, &glsl::module(name)?)?);
+        self.shaders.insert(name.to_owned(), made.clone());
+        Ok(made)
+    }
+
+    fn pipeline(&mut self, key: &PipelineKey, step: &Step, pass: &RenderPass) -> Result<Arc<GraphicsPipeline>> {
+        if let Some(known) = self.pipelines.get(key) {
+            return Ok(known.clone());
+        }
+        let vertex = self.shader("box.vert")?;
+        let fragment = key.shader.as_deref().map(|name| self.shader(name)).transpose()?;
+        // Constants that a variant has no use for are gone from its SPIR-V.
+        let known = |name: &str| fragment.iter().any(|f| f.spec_constants.iter().any(|(n, _)| n == name));
+        let constants: Vec<(&str, u32)> = key.constants.iter().copied().filter(|(name, _)| known(name)).collect();
+        let made = Arc::new(GraphicsPipeline::new(
+            self.device,
+            &GraphicsPipelineInfo {
+                name: step.pass_name(),
+                vertex: &vertex,
+                fragment: fragment.as_deref(),
+                constants: &constants,
+                render_pass: pass,
+                vertex_format: Some(vk::Format::R32G32B32_SFLOAT),
+                depth: DepthState {
+                    test: key.test.compare.is_some(),
+                    write: key.test.write,
+                    compare: key.test.compare.unwrap_or(vk::CompareOp::ALWAYS),
+                    bounds: key.test.bounds,
+                },
+                blend: if key.blend { Blend::Over } else { Blend::Replace },
+            },
+        )?);
+        self.pipelines.insert(key.clone(), made.clone());
+        Ok(made)
+    }
+
+    fn set(&mut self, key: &PipelineKey, step: &Step, pipeline: &GraphicsPipeline) -> Result<Arc<DescriptorSet>> {
+        use crate::vulkan::Resource as Bound;
+        if let Some(known) = self.sets.get(key) {
+            return Ok(known.clone());
+        }
+        let mut bound: Vec<(&str, Bound)> = Vec::new();
+        for access in step.accesses.iter().filter(|a| a.usage == Usage::Sampled) {
+            let resource = access.resource;
+            let layout = access.usage.layout(resource.is_depth());
+            if resource == Resource::Frame {
+                bound.push((resource.name(), Bound::Uniform(&self.frame)));
+            } else if let Some(buffer) = self.resident.buffer(resource) {
+                bound.push((resource.name(), Bound::Storage(buffer)));
+            } else if let Some(image) = self.targets.get(&resource).or_else(|| self.resident.image(resource)) {
+                let sampler = match &self.linear {
+                    Some(linear) if resource == Resource::Volume => linear,
+                    _ => &self.nearest,
+                };
+                bound.push((resource.name(), Bound::Sampled(image, sampler, layout)));
+            }
+        }
+        let name = step.pass_name();
+        let made = Arc::new(DescriptorSet::new(self.device, name, pipeline.layout(), &bound)?);
+        self.sets.insert(key.clone(), made.clone());
+        Ok(made)
+    }
+}

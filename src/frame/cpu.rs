@@ -1,0 +1,124 @@
+//! Runs a plan in f64 through the twins of its passes, pixel by pixel, without a device.
+
+use rayon::prelude::*;
+
+use super::structures::Structures;
+use crate::math::ray::box_interval;
+use crate::pass::{Draw, Faces, Group, Work};
+use crate::plan::Plan;
+use crate::reference::{Effect, Pixel, Twin};
+use crate::scene::Scene;
+
+/// What a frame leaves when it runs in f64.
+#[derive(Clone, Debug)]
+pub struct CpuFrame {
+    /// Premultiplied RGBA, row 0 on top.
+    pub pixels: Vec<[f64; 4]>,
+    /// Pixels that f32 cannot decide (see [`Pixel::undecided`]).
+    pub undecided: Vec<bool>,
+    pub counts: Counts,
+    /// Main fragments that took a sample of non-zero opacity: no skipping can run fewer and keep the picture.
+    pub ideal: u64,
+}
+
+/// Fragments of each main pass and of the intermediate pass before it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    pub main: Vec<u64>,
+    pub intermediate: Vec<u64>,
+}
+
+impl Counts {
+    pub fn new(passes: u32) -> Self {
+        Self { main: vec![0; passes as usize], intermediate: vec![0; passes as usize] }
+    }
+
+    /// The list a step of `group` counts for.
+    pub fn of(&mut self, group: Group) -> Option<&mut Vec<u64>> {
+        match group {
+            Group::Main => Some(&mut self.main),
+            Group::Intermediate => Some(&mut self.intermediate),
+            _ => None,
+        }
+    }
+
+    fn add(mut self, other: &Self) -> Self {
+        let lists = [(&mut self.main, &other.main), (&mut self.intermediate, &other.intermediate)];
+        for (mine, theirs) in lists {
+            mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += b);
+        }
+        self
+    }
+}
+
+/// Runs the plan.
+pub fn run(scene: &Scene, plan: &Plan, structures: &Structures) -> CpuFrame {
+    let [width, height] = plan.view.size;
+    let twin = Twin {
+        scene,
+        rays: plan.view.rays,
+        passes: plan.passes,
+        distance: structures.distance.as_ref().map(|d| &d.value),
+        blocks: structures.blocks.as_ref().map(|b| &b.value),
+    };
+    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row)).collect();
+    let mut frame = CpuFrame {
+        pixels: Vec::with_capacity(width as usize * height as usize),
+        undecided: Vec::new(),
+        counts: Counts::new(plan.passes),
+        ideal: 0,
+    };
+    for row in rows {
+        frame.pixels.extend(row.pixels);
+        frame.undecided.extend(row.undecided);
+        frame.counts = frame.counts.add(&row.counts);
+        frame.ideal += row.ideal;
+    }
+    frame
+}
+
+fn run_row(twin: &Twin, plan: &Plan, row: u32) -> CpuFrame {
+    let mut frame = CpuFrame { pixels: Vec::new(), undecided: Vec::new(), counts: Counts::new(plan.passes), ideal: 0 };
+    for column in 0..plan.view.size[0] {
+        let (covered, mut undecided) = coverage(twin, column, row);
+        let mut pixel = Pixel { column, row, undecided: false, ..Pixel::default() };
+        if covered {
+            for step in &plan.steps {
+                let Work::Draw(draw) = &step.work else { continue };
+                let Some(pass) = draw.twin else { continue };
+                if !takes_part(draw, &pixel) {
+                    continue;
+                }
+                let effect = pass(twin, &mut pixel, step.pass);
+                if let Some(list) = frame.counts.of(step.group) {
+                    list[step.pass as usize] += 1;
+                }
+                frame.ideal += u64::from(effect == Effect::Contributed);
+            }
+        }
+        undecided |= pixel.undecided;
+        frame.pixels.push(pixel.accumulated);
+        frame.undecided.push(undecided);
+    }
+    frame
+}
+
+/// Whether the fragment passes the step's tests. One rule for every form: stored <= bound.
+fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
+    draw.faces == Faces::Back || pixel.stored <= f64::from(draw.bound)
+}
+
+/// Whether the box covers the pixel's centre, and whether that is open: a rasteriser moves corners to a raster
+/// of 1/256 pixel and decides by that.
+fn coverage(twin: &Twin, column: u32, row: u32) -> (bool, bool) {
+    /// Moved corners shift an edge by less than this many pixels.
+    const EDGE: f64 = 1.0 / 128.0;
+    let half = 0.5 * twin.scene.field.extent();
+    let hit = |x: f64, y: f64| {
+        let direction = twin.rays.direction(column, row) + x * twin.rays.right + y * twin.rays.down;
+        box_interval(twin.rays.eye, direction, half, twin.rays.near).is_some()
+    };
+    let centre = hit(0.0, 0.0);
+    let around = [(EDGE, EDGE), (-EDGE, EDGE), (EDGE, -EDGE), (-EDGE, -EDGE)];
+    (centre, around.into_iter().any(|(x, y)| hit(x, y) != centre))
+}

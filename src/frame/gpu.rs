@@ -1,0 +1,388 @@
+//! Runs a plan on the device: the heart of the program.
+//!
+//! A frame is recorded step by step; around each stand its label, its queries and its timestamps. Every few main
+//! passes the rays left are counted, and when none is left the rest is not run: by conditional rendering where
+//! the driver has it, by reading the count back between batches where not.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+use ash::vk;
+use cpu_time::{ProcessTime, ThreadTime};
+
+use super::compile::{Compiled, CompiledStep, compile};
+use super::cpu::Counts;
+use super::resident::Resident;
+use crate::error::Result;
+use crate::pass::resource::Resource;
+use crate::pass::{Draw, Group, Work};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::shared;
+use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Scope, Timeline};
+
+/// What a run measures, besides its wall and CPU time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    Nothing,
+    /// GPU time of every step.
+    Times,
+    /// Fragments of every step, and invocations with `statistics`.
+    Counts {
+        statistics: bool,
+    },
+}
+
+/// How the rest of a frame is left out when no ray is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EarlyEnd {
+    /// The device skips the draws itself.
+    Conditional,
+    /// The host reads the count between batches.
+    ReadBack,
+}
+
+/// One run of a frame.
+#[derive(Clone, Debug, Default)]
+pub struct FrameRun {
+    /// Wall time from the first command recorded to the last result there, milliseconds.
+    pub frame_ms: f64,
+    /// CPU time of the process meanwhile.
+    pub cpu_ms: f64,
+    /// CPU time of this thread for recording and submitting.
+    pub record_ms: f64,
+    /// GPU time from the first step's begin to the last one's end, and of each step that ran.
+    pub gpu_total_ms: Option<f64>,
+    pub step_ms: Vec<(Group, u32, f64)>,
+    pub fragments: Option<Counts>,
+    pub invocations: Option<Counts>,
+}
+
+/// A plan, compiled for a device.
+pub struct GpuFrame {
+    device: Arc<Device>,
+    compiled: Compiled,
+    passes: u32,
+    size: [u32; 2],
+    early_end: EarlyEnd,
+    occlusion: QueryPool,
+    statistics: Option<QueryPool>,
+    timestamps: Option<QueryPool>,
+    /// One 32-bit count for every time the rays left are counted.
+    predicates: Option<Buffer>,
+    timeline: Timeline,
+    reached: u64,
+    /// Where RES was left by the last run.
+    accumulated_layout: vk::ImageLayout,
+}
+
+impl GpuFrame {
+    /// Compiles `plan`. `early_end` is the device's best unless given.
+    ///
+    /// # Errors
+    /// See [`compile`].
+    pub fn new(
+        device: &Arc<Device>,
+        scene: &Scene,
+        plan: &Plan,
+        resident: &Resident,
+        early_end: Option<EarlyEnd>,
+    ) -> Result<Self> {
+        let compiled = compile(device, scene, plan, resident)?;
+        let steps = compiled.steps.len().max(1) as u32;
+        let best = if device.info.conditional_rendering { EarlyEnd::Conditional } else { EarlyEnd::ReadBack };
+        let early_end = early_end.unwrap_or(best);
+        let alive = compiled.steps.iter().filter(|s| s.step.group == Group::Alive).count() as u64;
+        let predicates = (alive > 0 && early_end == EarlyEnd::Conditional)
+            .then(|| {
+                Buffer::new(
+                    device,
+                    BufferInfo {
+                        name: "rays_left".to_owned(),
+                        size: 4 * alive,
+                        usage: vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT | vk::BufferUsageFlags::TRANSFER_DST,
+                        place: Place::Device,
+                    },
+                )
+            })
+            .transpose()?;
+        let timed = device.graphics.timestamp_valid_bits > 0;
+        device.set_step_names(compiled.steps.iter().map(|s| s.step.name.clone()).collect());
+        Ok(Self {
+            device: device.clone(),
+            passes: plan.passes,
+            size: plan.view.size,
+            early_end,
+            occlusion: QueryPool::new(device, "fragments", Kind::Occlusion, steps)?,
+            statistics: if device.info.pipeline_statistics {
+                Some(QueryPool::new(device, "invocations", Kind::Statistics, steps)?)
+            } else {
+                None
+            },
+            timestamps: if timed { Some(QueryPool::new(device, "times", Kind::Timestamp, 2 * steps)?) } else { None },
+            predicates,
+            timeline: Timeline::new(device, "frame")?,
+            reached: 0,
+            accumulated_layout: vk::ImageLayout::UNDEFINED,
+            compiled,
+        })
+    }
+
+    /// Bytes of each target and buffer of the frame.
+    pub fn bytes(&self) -> Vec<(Resource, u64)> {
+        let targets = self.compiled.targets.iter().map(|(r, i)| (*r, i.bytes()));
+        let buffer = self.compiled.marks_buffer.iter().map(|b| (Resource::MarksBuffer, b.bytes()));
+        targets.chain(buffer).collect()
+    }
+
+    /// Runs the frame once and waits for it.
+    ///
+    /// # Errors
+    /// What the driver reports; a lost device names the last step begun.
+    pub fn run(&mut self, measure: Measure) -> Result<FrameRun> {
+        let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        let mut run = FrameRun::default();
+        let mut done = 0;
+        for batch in self.batches() {
+            done = batch.end;
+            run.record_ms += self.run_batch(batch.clone(), measure)?;
+            if self.early_end == EarlyEnd::ReadBack && !self.rays_left(done)? {
+                break;
+            }
+        }
+        run.cpu_ms = cpu.elapsed().as_secs_f64() * 1e3;
+        run.frame_ms = wall.elapsed().as_secs_f64() * 1e3;
+        if let Some(last) = done.checked_sub(1) {
+            self.accumulated_layout = self.compiled.steps[last].accumulated_layout.unwrap_or_default();
+            self.collect(measure, done, &mut run)?;
+        }
+        Ok(run)
+    }
+
+    /// The steps that are submitted together: all of them, or up to each count of rays.
+    fn batches(&self) -> Vec<Range<usize>> {
+        let steps = &self.compiled.steps;
+        let mut ends: Vec<usize> = match self.early_end {
+            EarlyEnd::Conditional => Vec::new(),
+            EarlyEnd::ReadBack => {
+                let counts = |(i, s): (usize, &CompiledStep)| (s.step.group == Group::Alive).then_some(i + 1);
+                steps.iter().enumerate().filter_map(counts).collect()
+            }
+        };
+        if ends.last() != Some(&steps.len()) {
+            ends.push(steps.len());
+        }
+        let begins = std::iter::once(0).chain(ends.iter().copied());
+        begins.zip(ends.iter().copied()).map(|(a, b)| a..b).filter(|r| !r.is_empty()).collect()
+    }
+
+    /// Records and submits a batch and waits for it; the CPU time of recording and submitting, milliseconds.
+    fn run_batch(&mut self, batch: Range<usize>, measure: Measure) -> Result<f64> {
+        let begin = ThreadTime::now();
+        let mut commands = Commands::begin(&self.device, &self.device.graphics, "frame")?;
+        if batch.start == 0 {
+            self.reset_queries(&mut commands);
+        }
+        let steps = &self.compiled.steps;
+        let counted_before = |i: usize| steps[..i].iter().filter(|s| s.step.group == Group::Alive).count();
+        let mut alive = counted_before(batch.start);
+        for i in batch {
+            self.record(&mut commands, i, alive.checked_sub(1), measure)?;
+            if steps[i].step.group == Group::Alive {
+                self.record_rays_left(&mut commands, i, alive);
+                alive += 1;
+            }
+        }
+        let recorded = commands.finish()?;
+        self.reached += 1;
+        self.device.graphics.submit(&[&recorded], &[], &[(&self.timeline, self.reached)])?;
+        let ms = begin.elapsed().as_secs_f64() * 1e3;
+        self.timeline.wait(self.reached)?;
+        Ok(ms)
+    }
+
+    fn reset_queries(&self, commands: &mut Commands) {
+        let steps = self.compiled.steps.len() as u32;
+        commands.reset_queries(&self.occlusion, 0..steps);
+        if let Some(pool) = &self.statistics {
+            commands.reset_queries(pool, 0..steps);
+        }
+        if let Some(pool) = &self.timestamps {
+            commands.reset_queries(pool, 0..2 * steps);
+        }
+    }
+
+    /// Step `i`; drawn only while rays were left when they were counted for the time `predicate`.
+    fn record(&self, commands: &mut Commands, i: usize, predicate: Option<usize>, measure: Measure) -> Result<()> {
+        let compiled = &self.compiled.steps[i];
+        let step = &compiled.step;
+        commands.label_begin(&step.name);
+        commands.step(i as u32);
+        let times = self.timestamps.as_ref().filter(|_| measure == Measure::Times);
+        if let Some(pool) = times {
+            commands.timestamp(pool, 2 * i as u32);
+        }
+        for barrier in &compiled.barriers {
+            let image = &self.compiled.targets[&barrier.resource];
+            commands.image_barrier(image, barrier.source, barrier.target, barrier.before, barrier.after);
+        }
+        match &step.work {
+            Work::Draw(draw) => self.record_draw(commands, i, draw, predicate, measure),
+            Work::Copy { from, to, .. } => self.record_copy(commands, *from, *to),
+            Work::Clear(resource) => {
+                commands.clear_color(&self.compiled.targets[resource], [0.0; 4]);
+            }
+            Work::Dispatch { .. } => {}
+        }
+        if let Some(pool) = times {
+            commands.timestamp(pool, 2 * i as u32 + 1);
+        }
+        commands.label_end();
+        Ok(())
+    }
+
+    fn record_draw(&self, commands: &mut Commands, i: usize, draw: &Draw, predicate: Option<usize>, measure: Measure) {
+        let compiled = &self.compiled.steps[i];
+        let Some(objects) = &compiled.draw else { return };
+        let area = self.area();
+        let counting = matches!(measure, Measure::Counts { .. }) || compiled.step.group == Group::Alive;
+        let statistics = match measure {
+            Measure::Counts { statistics: true } => self.statistics.as_ref(),
+            _ => None,
+        };
+        commands.begin_render_pass(&objects.render_pass, &objects.framebuffer, area, &objects.clears);
+        commands.bind_graphics(&objects.pipeline, &objects.set);
+        // One depth for the whole box, to the bit.
+        commands.viewport(self.full_area(), [draw.depth, draw.depth]);
+        commands.scissor(area);
+        if draw.test.bounds {
+            commands.depth_bounds(0.0, draw.bound);
+        }
+        let push = shared::Step { bound: draw.bound, pass: compiled.step.pass };
+        commands.push(objects.pipeline.layout(), bytemuck::bytes_of(&push));
+        if let Some(vertices) = &self.compiled.vertices {
+            commands.vertices(vertices);
+        }
+        if let Some(pool) = statistics {
+            commands.begin_query(pool, i as u32);
+        }
+        if counting {
+            commands.begin_query(&self.occlusion, i as u32);
+        }
+        let conditional = self.predicates.as_ref().zip(predicate);
+        if let Some((buffer, at)) = conditional {
+            commands.begin_conditional(buffer, 4 * at as u64);
+        }
+        commands.draw(objects.first_vertex, objects.vertices);
+        if conditional.is_some() {
+            commands.end_conditional();
+        }
+        if counting {
+            commands.end_query(&self.occlusion, i as u32);
+        }
+        if let Some(pool) = statistics {
+            commands.end_query(pool, i as u32);
+        }
+        commands.end_render_pass();
+    }
+
+    /// Colour to depth, by way of the buffer.
+    fn record_copy(&self, commands: &mut Commands, from: Resource, to: Resource) {
+        let Some(buffer) = &self.compiled.marks_buffer else { return };
+        let write = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
+        let read = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
+        let area = self.area();
+        commands.buffer_barrier(buffer, read, write);
+        commands.copy_image_to_buffer(&self.compiled.targets[&from], buffer, area);
+        commands.buffer_barrier(buffer, write, read);
+        commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], area);
+    }
+
+    /// Hands the count of rays left to the draws that follow.
+    fn record_rays_left(&self, commands: &mut Commands, i: usize, at: usize) {
+        let Some(buffer) = &self.predicates else { return };
+        commands.copy_query_results(&self.occlusion, i as u32, buffer, 4 * at as u64);
+        commands.buffer_barrier(
+            buffer,
+            Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE),
+            Scope::new(
+                vk::PipelineStageFlags2::CONDITIONAL_RENDERING_EXT,
+                vk::AccessFlags2::CONDITIONAL_RENDERING_READ_EXT,
+            ),
+        );
+    }
+
+    /// Whether the step before `done` counted any ray, where it counted.
+    fn rays_left(&self, done: usize) -> Result<bool> {
+        let last = done - 1;
+        if self.compiled.steps[last].step.group != Group::Alive {
+            return Ok(true);
+        }
+        Ok(self.occlusion.read(last as u32..done as u32)?[0] > 0)
+    }
+
+    fn collect(&self, measure: Measure, done: usize, run: &mut FrameRun) -> Result<()> {
+        let steps = &self.compiled.steps[..done];
+        match measure {
+            Measure::Nothing => {}
+            Measure::Times => {
+                let Some(pool) = &self.timestamps else { return Ok(()) };
+                let ticks = pool.read(0..2 * done as u32)?;
+                let ms = |a: usize, b: usize| self.device.elapsed_ms(ticks[a], ticks[b]);
+                run.gpu_total_ms = Some(ms(0, 2 * done - 1));
+                let each = |(i, s): (usize, &CompiledStep)| (s.step.group, s.step.pass, ms(2 * i, 2 * i + 1));
+                run.step_ms = steps.iter().enumerate().map(each).collect();
+            }
+            Measure::Counts { statistics } => {
+                run.fragments = Some(self.counts(&self.occlusion, steps)?);
+                if let Some(pool) = self.statistics.as_ref().filter(|_| statistics) {
+                    run.invocations = Some(self.counts(pool, steps)?);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn counts(&self, pool: &QueryPool, steps: &[CompiledStep]) -> Result<Counts> {
+        let mut counts = Counts::new(self.passes);
+        for (i, compiled) in steps.iter().enumerate() {
+            if let Some(list) = counts.of(compiled.step.group) {
+                list[compiled.step.pass as usize] += pool.read(i as u32..i as u32 + 1)?[0];
+            }
+        }
+        Ok(counts)
+    }
+
+    /// RES as the last run left it: premultiplied RGBA, row 0 on top, transparent where the box is not.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn picture(&mut self) -> Result<Vec<[f32; 4]>> {
+        let [width, height] = self.size.map(|n| n as usize);
+        let mut pixels = vec![[0.0f32; 4]; width * height];
+        let Some(image) = self.compiled.targets.get(&Resource::Accumulated) else { return Ok(pixels) };
+        let (texels, format) = super::upload::read_back(&self.device, image, self.area(), self.accumulated_layout)?;
+        self.accumulated_layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        let region = self.compiled.region;
+        let decoded = super::upload::decode_rgba(&texels, format);
+        for (row, line) in decoded.chunks_exact(region.width as usize).enumerate() {
+            let begin = (region.y as usize + row) * width + region.x as usize;
+            pixels[begin..begin + line.len()].copy_from_slice(line);
+        }
+        Ok(pixels)
+    }
+
+    fn area(&self) -> vk::Rect2D {
+        let r = self.compiled.region;
+        vk::Rect2D {
+            offset: vk::Offset2D { x: r.x as i32, y: r.y as i32 },
+            extent: vk::Extent2D { width: r.width, height: r.height },
+        }
+    }
+
+    fn full_area(&self) -> vk::Rect2D {
+        let [width, height] = self.size;
+        vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
+    }
+}

@@ -1,0 +1,47 @@
+//! The structures a plan asks for, built on the CPU, with what building them took.
+
+use cpu_time::ProcessTime;
+
+use crate::pass::resource::Resource;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::structure::blocks::Blocks;
+use crate::structure::distance::{self, DistanceField};
+
+/// A structure and what it cost.
+#[derive(Clone, Debug)]
+pub struct Built<T> {
+    pub value: T,
+    /// CPU time of the process, milliseconds.
+    pub cpu_ms: f64,
+    pub bytes: u64,
+}
+
+/// What a frame looks up to skip.
+#[derive(Clone, Debug, Default)]
+pub struct Structures {
+    pub distance: Option<Built<DistanceField>>,
+    pub blocks: Option<Built<Blocks>>,
+}
+
+impl Structures {
+    /// Adds what the plan reads and is not there yet. All of it depends on volume and transfer function only,
+    /// so that plans of one scene may share it.
+    pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        if self.distance.is_none() && reads(Resource::NearestDistance) {
+            self.distance = Some(timed(|| distance::build(&scene.field, &scene.transfer), DistanceField::bytes));
+        }
+        if self.blocks.is_none() && reads(Resource::BlockRange) {
+            self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
+        }
+    }
+}
+
+fn timed<T>(build: impl FnOnce() -> T, bytes: impl FnOnce(&T) -> u64) -> Built<T> {
+    let begin = ProcessTime::now();
+    let value = build();
+    let cpu_ms = begin.elapsed().as_secs_f64() * 1e3;
+    let bytes = bytes(&value);
+    Built { value, cpu_ms, bytes }
+}

@@ -1,0 +1,29 @@
+//! Counts the rays that are not dead, so that passes nobody takes part in are not run [after Thesis §5.3.3].
+
+use ash::vk;
+
+use super::resource::{Resource, Usage};
+use super::{DepthTest, Draw, Faces, Group, Step, Work};
+
+/// Dead rays hold 1.0; sections and skipped segments stay at or below 0.5.
+const ALIVE: f32 = 0.75;
+
+/// Counts before main pass `pass`, by a depth test that every device has.
+pub fn alive(pass: u32) -> Step {
+    Step {
+        name: format!("alive #{pass}"),
+        group: Group::Alive,
+        pass,
+        accesses: vec![Usage::Vertices.of(Resource::Box), Usage::DepthTest.of(Resource::Stored)],
+        work: Work::Draw(Draw {
+            faces: Faces::Front,
+            depth: ALIVE,
+            bound: ALIVE,
+            test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },
+            shader: None,
+            constants: Vec::new(),
+            blend: false,
+            twin: None,
+        }),
+    }
+}

@@ -1,0 +1,26 @@
+//! Intermediate pass of `rc-block`: stopping criterion and empty blocks [KW03 §2.3].
+
+use ash::vk;
+
+use super::resource::{Resource, Usage};
+use super::{Draw, Faces, Group, Step, Work, cull};
+use crate::reference;
+use crate::scene::Scene;
+
+/// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
+pub fn block_skip(scene: &Scene, pass: u32, form: cull::Form) -> Step {
+    let mut accesses = vec![
+        Usage::Vertices.of(Resource::Box),
+        Usage::Sampled.of(Resource::Frame),
+        Usage::Sampled.of(Resource::Entry),
+        Usage::Sampled.of(Resource::Direction),
+        Usage::Sampled.of(Resource::Accumulated),
+        Usage::Sampled.of(Resource::BlockRange),
+        Usage::Sampled.of(Resource::BlockTable),
+    ];
+    let shader = format!("block_skip.frag:{}", form.mark_variant());
+    let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
+    draw.constants = vec![("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)];
+    cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
+    Step { name: format!("block_skip #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
+}

@@ -1,0 +1,14 @@
+//! Empties RES where an intermediate pass reads it before the first main pass has written it.
+
+use super::resource::{Resource, Usage};
+use super::{Group, Step, Work};
+
+pub fn clear() -> Step {
+    Step {
+        name: "clear".to_owned(),
+        group: Group::Setup,
+        pass: 0,
+        accesses: vec![Usage::CopyTarget.of(Resource::Accumulated)],
+        work: Work::Clear(Resource::Accumulated),
+    }
+}

@@ -1,0 +1,19 @@
+//! Entry point determination [KW03 §2.1, Thesis §5.2.2].
+
+use super::resource::{Resource, Usage};
+use super::{Draw, Faces, Group, Step, Work};
+use crate::reference;
+
+pub fn entry() -> Step {
+    Step {
+        name: "entry".to_owned(),
+        group: Group::Setup,
+        pass: 0,
+        accesses: vec![
+            Usage::Vertices.of(Resource::Box),
+            Usage::Sampled.of(Resource::Frame),
+            Usage::Color.of(Resource::Entry),
+        ],
+        work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", reference::entry::entry)),
+    }
+}

@@ -1,0 +1,16 @@
+//! Marks to the depth buffer: colour image -> buffer -> depth image, since Vulkan copies between the two kinds
+//! only by way of a buffer.
+
+use super::resource::{Resource, Usage};
+use super::{Group, Step, Work};
+
+/// Copies the marks that the intermediate pass for main pass `pass` left.
+pub fn mark_copy(pass: u32) -> Step {
+    Step {
+        name: format!("mark_copy #{pass}"),
+        group: Group::Copy,
+        pass,
+        accesses: vec![Usage::CopySource.of(Resource::Marks), Usage::CopyTarget.of(Resource::Stored)],
+        work: Work::Copy { from: Resource::Marks, by: Resource::MarksBuffer, to: Resource::Stored },
+    }
+}

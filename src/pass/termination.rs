@@ -1,0 +1,24 @@
+//! Intermediate pass of `rc-ert`: the stopping criterion [KW03 §2.1].
+
+use ash::vk;
+
+use super::resource::{Resource, Usage};
+use super::{Draw, Faces, Group, Step, Work, cull};
+use crate::reference;
+use crate::scene::Scene;
+
+/// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
+pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
+    let mut accesses = vec![
+        Usage::Vertices.of(Resource::Box),
+        Usage::Sampled.of(Resource::Frame),
+        Usage::Sampled.of(Resource::Entry),
+        Usage::Sampled.of(Resource::Direction),
+        Usage::Sampled.of(Resource::Accumulated),
+    ];
+    let shader = format!("termination.frag:{}", form.mark_variant());
+    let mut draw = Draw::plain(Faces::Front, &shader, reference::termination::termination);
+    draw.constants = vec![("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)];
+    cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
+    Step { name: format!("termination #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
+}

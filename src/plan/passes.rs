@@ -1,0 +1,85 @@
+//! The one table of methods: which passes, in which order.
+
+use super::View;
+use crate::pass::cull::{Form, Mark};
+use crate::pass::{
+    Step, alive, block_range, block_skip, clear, direction, entry, main_pass, mark_copy, near_neighbor, termination,
+};
+use crate::scene::Scene;
+use crate::scene::settings::{Cull, MethodName};
+
+/// Every so many main passes the rays that are left are counted.
+pub const BATCH: u32 = 8;
+
+/// The bound of main passes that are switched on and off only: rays that go on hold 0, others 0.5 or 1.
+const SWITCH: f32 = 0.25;
+
+/// Steps of a frame, in order.
+pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Vec<Step> {
+    let method = &scene.settings.method;
+    let mut steps = Vec::new();
+    if method.name == MethodName::RcBlock {
+        steps.push(block_range::block_range(&scene.field));
+    }
+    steps.push(entry::entry());
+    steps.push(direction::direction());
+    match (method.name, form) {
+        (MethodName::RcErt | MethodName::Cpu, Some(form)) => {
+            switched(&mut steps, scene, passes, form, 1, termination::termination);
+        }
+        (MethodName::RcBlock, Some(form)) => {
+            let first = u32::from(!method.block_first);
+            switched(&mut steps, scene, passes, form, first, block_skip::block_skip);
+        }
+        (MethodName::NnOmni, Some(form)) => {
+            steps.push(clear::clear());
+            let decide = |scene: &Scene, pass, form| near_neighbor::near_neighbor(scene, pass, passes, form);
+            for pass in 0..passes {
+                intermediate(&mut steps, scene, pass, form, decide);
+                let end = crate::reference::section::section_end(pass, passes) as f32;
+                steps.push(main_pass::main_pass(scene, pass, Some((form.cull, end))));
+            }
+        }
+        _ => steps.extend((0..passes).map(|pass| main_pass::main_pass(scene, pass, None))),
+    }
+    steps
+}
+
+/// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
+fn switched(
+    steps: &mut Vec<Step>,
+    scene: &Scene,
+    passes: u32,
+    form: Form,
+    first: u32,
+    decide: fn(&Scene, u32, Form) -> Step,
+) {
+    if first == 0 {
+        steps.push(clear::clear());
+    }
+    for pass in 0..passes {
+        let mut culled: Option<(Cull, f32)> = None;
+        if pass >= first {
+            intermediate(steps, scene, pass, form, decide);
+            culled = Some((form.cull, SWITCH));
+        }
+        steps.push(main_pass::main_pass(scene, pass, culled));
+    }
+}
+
+/// An intermediate pass, its copy where marks go that way, and now and then the count of rays left.
+fn intermediate(
+    steps: &mut Vec<Step>,
+    scene: &Scene,
+    pass: u32,
+    form: Form,
+    decide: impl Fn(&Scene, u32, Form) -> Step,
+) {
+    steps.push(decide(scene, pass, form));
+    if form.mark == Mark::Copy {
+        steps.push(mark_copy::mark_copy(pass));
+    }
+    if pass > 0 && pass.is_multiple_of(BATCH) {
+        steps.push(alive::alive(pass));
+    }
+}

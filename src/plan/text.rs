@@ -1,0 +1,45 @@
+//! A plan as text, one line a step: it is read by people and held by tests.
+
+use super::Plan;
+use crate::pass::resource::{Access, Usage};
+use crate::pass::{Step, Work};
+
+impl Plan {
+    /// One line a step: number, name, queue, what it reads -> what it writes; then what was left out.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines: Vec<String> =
+            self.steps.iter().enumerate().map(|(i, step)| format!("{:>3} {}", i + 1, line(step))).collect();
+        lines.extend(self.left_out.iter().map(|l| format!("  - {} left out: {}", l.what, l.why)));
+        lines
+    }
+}
+
+fn line(step: &Step) -> String {
+    let names = |writes: bool| -> String {
+        let of = |a: &Access| a.usage.writes() == writes && a.usage != Usage::Vertices;
+        let names: Vec<_> = step.accesses.iter().filter(|a| of(a)).map(|a| a.resource.name()).collect();
+        names.join(", ")
+    };
+    let (queue, detail) = match &step.work {
+        Work::Draw(draw) => {
+            let mut detail = String::new();
+            if draw.test.bounds {
+                detail = format!("  [bounds 0..{:.6}]", draw.bound);
+            } else if draw.test.compare.is_some() && !draw.test.write {
+                detail = format!("  [stored <= {:.6}]", draw.bound);
+            } else if draw.bound < 1.0 {
+                detail = format!("  [discard unless stored <= {:.6}]", draw.bound);
+            }
+            ("graphics", detail)
+        }
+        Work::Copy { .. } | Work::Clear(_) => ("transfer", String::new()),
+        Work::Dispatch { .. } => ("compute", String::new()),
+    };
+    let (reads, writes) = (names(false), names(true));
+    let arrow = match (reads.is_empty(), writes.is_empty()) {
+        (_, true) => reads,
+        (true, false) => format!("-> {writes}"),
+        (false, false) => format!("{reads} -> {writes}"),
+    };
+    format!("{:<20} {queue:<9} {arrow}{detail}", step.name)
+}

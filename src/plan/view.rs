@@ -1,0 +1,111 @@
+//! What a view asks of a plan: the box as triangles, the pixels it covers, the longest ray.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::error::Result;
+use crate::math::polyhedron::{HalfSpace, Polyhedron};
+use crate::math::ray::{ViewRays, box_interval};
+use crate::scene::Scene;
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Region {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Region {
+    pub fn pixels(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+}
+
+/// A scene as seen by its camera.
+#[derive(Clone, Debug)]
+pub struct View {
+    pub size: [u32; 2],
+    pub rays: ViewRays,
+    /// Clip coordinates x, y, w of the corners of triangles, three each: front faces (and cap), then back faces.
+    pub front: Vec<[f32; 3]>,
+    pub back: Vec<[f32; 3]>,
+    /// The pixels the box may cover; none where it is out of view.
+    pub region: Region,
+    /// Samples on the ray that has most.
+    pub longest_samples: u32,
+}
+
+/// The view frustum is clipped this much wider than the picture, so that its sides never show; what is left
+/// stays within what every rasteriser handles.
+const GUARD: f64 = 2.0;
+
+impl View {
+    /// # Errors
+    /// When the camera is not one (see [`crate::scene::Camera::basis`]).
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let size = scene.settings.image.size;
+        let rays = scene.camera.rays(size)?;
+        let basis = scene.camera.basis()?;
+        let half = 0.5 * scene.field.extent();
+        let half_height = (0.5 * scene.camera.fov_y.to_radians()).tan();
+        let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
+
+        let through_eye = |normal: DVec3| HalfSpace { normal, distance: normal.dot(rays.eye) };
+        let near = HalfSpace { normal: basis.forward, distance: basis.forward.dot(rays.eye) + rays.near };
+        let solid = Polyhedron::cuboid(half, rays.eye)
+            .clipped(near, true)
+            .clipped(through_eye(GUARD * half_width * basis.forward - basis.right), false)
+            .clipped(through_eye(GUARD * half_width * basis.forward + basis.right), false)
+            .clipped(through_eye(GUARD * half_height * basis.forward - basis.up), false)
+            .clipped(through_eye(GUARD * half_height * basis.forward + basis.up), false);
+        let project = |front: bool| -> Vec<[f32; 3]> {
+            let clip = |p: DVec3| {
+                let arm = p - rays.eye;
+                let (x, y) = (arm.dot(basis.right) / half_width, -arm.dot(basis.up) / half_height);
+                [x, y, arm.dot(basis.forward)].map(|c| c as f32)
+            };
+            solid.triangles(front).into_iter().map(clip).collect()
+        };
+        let (front, back) = (project(true), project(false));
+        let region = covered(&front, size);
+        let longest_samples = longest_samples(scene, &rays, region);
+        Ok(Self { size, rays, front, back, region, longest_samples })
+    }
+}
+
+/// The pixels that triangles may cover, one pixel more on each side.
+fn covered(clip: &[[f32; 3]], size: [u32; 2]) -> Region {
+    let range = |axis: usize| -> Option<(u32, u32)> {
+        let pixels = f64::from(size[axis]);
+        let at = |c: &[f32; 3]| (0.5 * f64::from(c[axis]) / f64::from(c[2]) + 0.5) * pixels;
+        let low = clip.iter().map(at).fold(f64::INFINITY, f64::min);
+        let high = clip.iter().map(at).fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = ((low.floor() - 1.0).max(0.0), (high.ceil() + 1.0).min(pixels));
+        (low < high).then_some((low as u32, high as u32))
+    };
+    match (range(0), range(1)) {
+        (Some((x0, x1)), Some((y0, y1))) => Region { x: x0, y: y0, width: x1 - x0, height: y1 - y0 },
+        _ => Region::default(),
+    }
+}
+
+fn longest_samples(scene: &Scene, rays: &ViewRays, region: Region) -> u32 {
+    let half = 0.5 * scene.field.extent();
+    let sampling = &scene.settings.sampling;
+    let longest = (region.y..region.y + region.height)
+        .into_par_iter()
+        .map(|row| {
+            (region.x..region.x + region.width)
+                .filter_map(|column| {
+                    let direction = rays.direction(column, row);
+                    let (enter, leave) = box_interval(rays.eye, direction, half, rays.near)?;
+                    Some((leave - enter) * direction.length())
+                })
+                .fold(0.0, f64::max)
+        })
+        .reduce(|| 0.0, f64::max);
+    let steps = longest / (sampling.step * scene.field.finest());
+    (steps - sampling.offset.steps()).ceil().max(0.0) as u32
+}

@@ -1,0 +1,52 @@
+//! Twin of `glsl/main_pass.frag`: M samples of the ray's segment, front to back [KW03 §2.1].
+
+use super::{Effect, Pixel, Twin};
+use crate::math::interpolate::trilinear;
+use crate::math::opacity::{composite, corrected_opacity};
+use crate::scene::settings::{Alpha, Last};
+
+/// A scalar value this near to a jump of the transfer function may fall on either side of it in f32:
+/// interpolation rounds to a few units of 2^-24 and the position to 1e-5 voxels.
+const JUMP_ROUNDING: f64 = 2e-5;
+
+impl Twin<'_> {
+    /// Premultiplied colour of sample `i`.
+    fn shade_sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        let (field, transfer, sampling) = (&self.scene.field, &self.scene.transfer, &self.scene.settings.sampling);
+        let voxel = self.voxel(self.sample_position(pixel, i));
+        if let Some(holes) = &field.holes {
+            let ([nx, ny, _], [x, y, z]) = (field.cells(), field.cell_at(voxel));
+            if holes[(z * ny + y) * nx + x] {
+                return [0.0; 4];
+            }
+        }
+        let value = trilinear(&field.values, field.dims(), voxel);
+        pixel.undecided |= transfer.jumps().any(|x| (value - x).abs() < JUMP_ROUNDING);
+        let [r, g, b, a] = transfer.evaluate(value);
+        let steps = match sampling.last {
+            Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
+            _ => 1.0,
+        };
+        let alpha = match sampling.alpha {
+            Alpha::Exponential => corrected_opacity(a, steps * sampling.step / transfer.reference),
+            Alpha::Paper => (a * steps).min(1.0),
+        };
+        [r * alpha, g * alpha, b * alpha, alpha]
+    }
+}
+
+/// Puts the segment of main pass `pass` under what the pixel has already.
+pub fn main_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let (first, end) = twin.segment(pixel, pass);
+    let mut segment = [0.0; 4];
+    let mut effect = Effect::Silent;
+    for i in first..end {
+        let sample = twin.shade_sample(pixel, i);
+        if sample[3] > 0.0 {
+            effect = Effect::Contributed;
+        }
+        segment = composite(segment, sample);
+    }
+    pixel.accumulated = composite(pixel.accumulated, segment);
+    effect
+}

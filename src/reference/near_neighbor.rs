@@ -1,0 +1,24 @@
+//! Twin of `glsl/near_neighbor.frag`: the intermediate pass of near-neighbor skipping [Thesis §5.3].
+
+use super::section::{passes_skipped, section_depth};
+use super::{DEAD, Effect, Pixel, Twin};
+
+/// Marks the section in which the ray next has work, or death.
+///
+/// # Panics
+/// When the frame has no distances; the plan of every `nn-*` method has them.
+pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let distance = twin.distance.expect("near-neighbor skipping is planned with distances");
+    let (sampling, method) = (&twin.scene.settings.sampling, &twin.scene.settings.method);
+    let (first, end) = twin.segment(pixel, pass);
+    if twin.saturated(pixel) || first >= end {
+        pixel.stored = DEAD;
+        return Effect::Silent;
+    }
+    let cell = twin.scene.field.cell_at(twin.voxel(twin.sample_position(pixel, first)));
+    let free = f64::from(distance.at(cell));
+    let next = pass + passes_skipped(free, f64::from(sampling.samples_per_pass) * sampling.step);
+    let left = method.exit_lookahead && next * sampling.samples_per_pass >= twin.sample_count(pixel);
+    pixel.stored = if left || next >= twin.passes { DEAD } else { section_depth(next, twin.passes) };
+    Effect::Silent
+}

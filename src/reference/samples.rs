@@ -1,0 +1,64 @@
+//! Samples along a ray: how many and where. Twin of `glsl/shared/samples.glsl`.
+
+use glam::DVec3;
+
+use super::{Pixel, Twin};
+
+/// The GPU's count of samples comes from an f32 length; within this of a whole number (relative to the length
+/// in steps, plus an absolute part for short rays) the two may differ by one.
+const LENGTH_RELATIVE: f64 = 1e-6;
+const LENGTH_ABSOLUTE: f64 = 1e-5;
+
+impl Twin<'_> {
+    /// Distance between samples in volume units.
+    pub fn step_length(&self) -> f64 {
+        self.scene.settings.sampling.step * self.scene.field.finest()
+    }
+
+    /// Length of the ray in steps.
+    pub fn steps(&self, pixel: &Pixel) -> f64 {
+        pixel.length / self.step_length()
+    }
+
+    /// Samples on the ray: all i with (i + offset) steps < length.
+    pub fn sample_count(&self, pixel: &Pixel) -> u32 {
+        (self.steps(pixel) - self.scene.settings.sampling.offset.steps()).ceil().max(0.0) as u32
+    }
+
+    /// Whether f32 can tell the number of samples.
+    pub fn sample_count_decided(&self, pixel: &Pixel) -> bool {
+        let steps = self.steps(pixel);
+        let shifted = steps - self.scene.settings.sampling.offset.steps();
+        (shifted - shifted.round()).abs() > LENGTH_RELATIVE * steps + LENGTH_ABSOLUTE
+    }
+
+    /// Position of sample `i`, texture coordinates.
+    pub fn sample_position(&self, pixel: &Pixel, i: u32) -> DVec3 {
+        let distance = (f64::from(i) + self.scene.settings.sampling.offset.steps()) * self.step_length();
+        pixel.entry + pixel.direction / self.scene.field.extent() * distance
+    }
+
+    /// Texture coordinates to voxel coordinates (centres at i + 0.5).
+    pub fn voxel(&self, position: DVec3) -> DVec3 {
+        position * DVec3::from_array(self.scene.field.dims().map(|n| n as f64))
+    }
+
+    /// The samples of main pass `pass`: first and one past the last.
+    pub fn segment(&self, pixel: &Pixel, pass: u32) -> (u32, u32) {
+        let m = self.scene.settings.sampling.samples_per_pass;
+        let first = pass * m;
+        (first, (first + m).min(self.sample_count(pixel)))
+    }
+
+    /// Whether the ray's opacity is above the threshold T; undecided where rounding may decide.
+    pub fn saturated(&self, pixel: &mut Pixel) -> bool {
+        // The sum of up to some thousand rounded samples.
+        const ROUNDING: f64 = 1e-5;
+        let threshold = self.scene.settings.sampling.termination;
+        // Opacity never exceeds 1, so that at T = 1 there is nothing to decide.
+        if threshold < 1.0 && pixel.accumulated[3] > 0.0 {
+            pixel.undecided |= (pixel.accumulated[3] - threshold).abs() < ROUNDING;
+        }
+        pixel.accumulated[3] > threshold
+    }
+}

@@ -1,0 +1,16 @@
+//! Sections of the depth range, one a main pass [Thesis §5.3]. Twin of `glsl/shared/section.glsl`.
+
+/// Depth that marks `section` of `passes`: the middle of its part of [0, 0.5).
+pub fn section_depth(section: u32, passes: u32) -> f64 {
+    (f64::from(section) + 0.5) / (2.0 * f64::from(passes))
+}
+
+/// End of `section`: the upper depth bound of its passes.
+pub fn section_end(section: u32, passes: u32) -> f64 {
+    (f64::from(section) + 1.0) / (2.0 * f64::from(passes))
+}
+
+/// Whole segments of `segment` voxels within `free` voxels that hold no contributing sample.
+pub fn passes_skipped(free: f64, segment: f64) -> u32 {
+    (free / segment + 1e-6).floor() as u32
+}

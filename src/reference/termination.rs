@@ -1,0 +1,11 @@
+//! Twin of `glsl/termination.frag`: the stopping criterion of `rc-ert` [KW03 §2.1].
+
+use super::{DEAD, Effect, Pixel, Twin};
+
+/// Marks the pixel dead when its ray is saturated or has left before main pass `pass`.
+pub fn termination(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let (first, end) = twin.segment(pixel, pass);
+    let saturated = twin.saturated(pixel);
+    pixel.stored = if first >= end || saturated { DEAD } else { 0.0 };
+    Effect::Silent
+}
