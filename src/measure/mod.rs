@@ -1,1 +1,29 @@
-//! (skeleton)
+//! From counts, times and pictures to tables, JSON, CSV and the report. Knows no Vulkan: `frame` fills a
+//! [`record::Run`], everything here only reads it.
+//!
+//! 1. [`record`]: one run and the results file; the reference of the format.
+//! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
+//! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
+//! 4. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
+//! 5. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
+
+pub mod comparison;
+pub mod csv;
+pub mod error;
+pub mod number;
+pub mod picture;
+pub mod plot;
+pub mod record;
+pub mod report;
+pub mod statistics;
+pub mod table;
+pub mod timing;
+pub mod write;
+
+pub use error::{PictureError, compare};
+pub use picture::Picture;
+pub use record::{Results, Run};
+pub use report::{ReportInput, report_html};
+pub use statistics::Statistics;
+pub use timing::{HostTimes, Timing, Timings};
+pub use write::write_atomically;

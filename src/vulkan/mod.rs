@@ -1,1 +1,50 @@
-//! (skeleton)
+//! The Vulkan layer: devices, memory, images, buffers, shaders and their reflection, render passes, pipelines,
+//! queries, command buffers, queues.
+//!
+//! Every object is a handle and the info it was made from, carries a name (the one errors, the debugger and
+//! the validation layer show), and frees itself. What a recording uses is kept alive until its last
+//! submission has ended, so dropping an object early is safe. `unsafe` stays in this folder. A misuse that is
+//! found while recording is reported by [`Commands::finish`].
+
+mod buffer;
+mod commands;
+mod descriptor;
+mod device;
+mod failure;
+mod format;
+mod image;
+mod info;
+mod instance;
+mod layout;
+mod marks;
+mod owned;
+mod pick;
+mod pipeline;
+mod query;
+mod queue;
+mod reflect;
+mod render_pass;
+mod shader;
+mod stages;
+mod suppressed;
+mod transfer;
+
+pub use ash::vk;
+
+pub use buffer::{Buffer, BufferInfo, Place};
+pub use commands::{Commands, Recorded};
+pub use descriptor::{DescriptorSet, Resource};
+pub use device::Device;
+pub use format::{aspect, texel_bytes};
+pub use image::{Image, ImageInfo, Sampler};
+pub use info::{DeviceInfo, DeviceKind, QueueFamily};
+pub use instance::Instance;
+pub use layout::Layout;
+pub use pick::pick;
+pub use pipeline::{Blend, ComputePipeline, DepthState, GraphicsPipeline, GraphicsPipelineInfo};
+pub use query::{Kind, QueryPool};
+pub use queue::{Queue, Timeline};
+pub use render_pass::{Attachment, Dependency, Framebuffer, RenderPass, RenderPassInfo, Role, Scope};
+pub use shader::{Binding, Shader};
+pub use suppressed::SUPPRESSED;
+pub use transfer::Region;

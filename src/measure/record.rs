@@ -1,0 +1,233 @@
+//! The results file. `render --json FILE` writes one [`Run`], `bench` a [`Results`] with an array of them. This page
+//! is the reference for scripts that read either; numbers are JSON numbers, absent things are `null`.
+//!
+//! # The document (`results.json`)
+//!
+//! | key | type | meaning |
+//! | --- | --- | --- |
+//! | `version` | integer | version of this format, [`FORMAT`] |
+//! | `program` | text | program and version, `depthleap 0.1.0` |
+//! | `commit` | text | commit the program was built from, `unknown` outside a checkout |
+//! | `command` | text | the command line |
+//! | `date` | text | when the runs began, ISO 8601 |
+//! | `runs` | array | the runs, in the order they were made |
+//!
+//! # A run
+//!
+//! | key | type, unit | meaning |
+//! | --- | --- | --- |
+//! | `version` | integer | version of this format |
+//! | `scene` | text | name of the scene |
+//! | `view` | text | the camera in words |
+//! | `method` | text | `rc`, `rc-block`, `nn-omni`, ... |
+//! | `cull`, `mark` | text or null | what `auto` became; null where the method has no such choice |
+//! | `passes` | integer | N, main passes of the plan |
+//! | `fragments` | counts | samples that passed every per-fragment test, by precise occlusion query |
+//! | `invocations` | counts or null | fragment-shader invocations, by pipeline statistics; null where the driver has none that can be believed |
+//! | `gpu_ms` | times or null | device time of each group of passes and `total`, milliseconds, by timestamps; null where the device has none |
+//! | `gpu_ms_per_pass` | {`main`, `intermediate`} of arrays, or null | the same, milliseconds for each pass |
+//! | `frame_ms` | number or null, ms | wall time of a frame |
+//! | `cpu_ms` | number or null, ms | CPU time of the process for a frame, all threads together |
+//! | `record_ms` | number or null, ms | CPU time for recording and submitting a frame |
+//! | `build_ms` | number or null, ms | time for building the structures; null where the method has none |
+//! | `bytes` | integer, bytes | size of the structures |
+//! | `memory` | map text to integer, bytes | size of every resource of the frame by its name |
+//! | `ideal` | {`main`} or null | main fragments no skipping can go below: those whose segment holds a contributing sample |
+//! | `error` | error or null | how far the picture is from the reference; null where none was made |
+//! | `device`, `driver` | text | the device and its driver, with versions |
+//! | `self_check` | map text to text | each form of the bounds test: `right`, what is wrong with it, or `not available` |
+//! | `left_out` | array of {`what`, `why`} | what the scene did not need |
+//! | `plan` | array of text | the frame's steps, one a line |
+//! | `notes` | array of text | what a reader of the numbers should know |
+//! | `settings` | object | the keys of a scene file, from which alone the run can be repeated |
+//!
+//! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
+//! passes}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}
+//! beside it: smallest, largest, median absolute deviation (milliseconds) and number of samples. So has every
+//! `..._ms` of a run. *error*: see [`ErrorRecord`].
+
+use std::collections::BTreeMap;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::timing::{HostTimes, Timings};
+use crate::error::{Error, Result};
+use crate::scene::Settings;
+
+/// The version of the format written here.
+pub const FORMAT: u32 = 1;
+
+/// One scene rendered by one method: all that was counted, timed and checked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    pub version: u32,
+    pub scene: String,
+    pub view: String,
+    pub method: String,
+    pub cull: Option<String>,
+    pub mark: Option<String>,
+    /// N, main passes of the plan.
+    pub passes: u32,
+    pub fragments: Counts,
+    pub invocations: Option<Counts>,
+    /// Milliseconds by group of passes, with `total`.
+    pub gpu_ms: Option<Timings>,
+    pub gpu_ms_per_pass: Option<PassTimes>,
+    #[serde(flatten)]
+    pub host: HostTimes,
+    /// Size of the structures.
+    pub bytes: u64,
+    /// Bytes of every resource by its name.
+    pub memory: BTreeMap<String, u64>,
+    pub ideal: Option<Ideal>,
+    pub error: Option<ErrorRecord>,
+    pub device: String,
+    pub driver: String,
+    /// Verdict by form of the bounds test: `right`, what is wrong, or `not available`.
+    pub self_check: BTreeMap<String, String>,
+    pub left_out: Vec<LeftOut>,
+    pub plan: Vec<String>,
+    pub notes: Vec<String>,
+    pub settings: Settings,
+}
+
+/// Fragments or invocations of a frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    pub main: u64,
+    pub intermediate: u64,
+    pub main_per_pass: Vec<u64>,
+    pub intermediate_per_pass: Vec<u64>,
+}
+
+impl Counts {
+    /// From the counts of each pass, in the order of the passes.
+    pub fn of(main_per_pass: Vec<u64>, intermediate_per_pass: Vec<u64>) -> Self {
+        let sum = |counts: &[u64]| counts.iter().fold(0_u64, |sum, c| sum.saturating_add(*c));
+        Self {
+            main: sum(&main_per_pass),
+            intermediate: sum(&intermediate_per_pass),
+            main_per_pass,
+            intermediate_per_pass,
+        }
+    }
+}
+
+/// Milliseconds of each pass, in the order of the passes; medians where repeated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PassTimes {
+    pub main: Vec<f64>,
+    pub intermediate: Vec<f64>,
+}
+
+/// The lower bound of [Thesis §5.3]'s idea, from an exact search along every ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ideal {
+    pub main: u64,
+}
+
+/// How far a picture is from the reference, in premultiplied linear RGBA.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorRecord {
+    /// Largest difference of a channel, undecided pixels left out. `null` in the file: infinite (a pixel that is
+    /// not a number).
+    #[serde(with = "null_is_infinite")]
+    pub max: f64,
+    /// Root of the mean squared difference over all pixels and channels; `null` as above.
+    #[serde(with = "null_is_infinite")]
+    pub rmse: f64,
+    /// Decibel against a peak of 1; `null` where it is infinite (`rmse` 0: equal pictures) or `rmse` is.
+    pub psnr: Option<f64>,
+    /// Pixels left out of `max`: f32 cannot decide there on which side of a jump or of a box face a sample lies.
+    pub undecided: u64,
+    /// What the picture was compared with.
+    pub reference: String,
+}
+
+/// JSON has no infinity.
+mod null_is_infinite {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        value.is_finite().then_some(*value).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LeftOut {
+    pub what: String,
+    pub why: String,
+}
+
+/// The runs of one command.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Results {
+    pub version: u32,
+    pub program: String,
+    pub commit: String,
+    pub command: String,
+    pub date: String,
+    pub runs: Vec<Run>,
+}
+
+impl Run {
+    /// # Errors
+    /// As [`Results::to_json`].
+    pub fn to_json(&self) -> Result<String> {
+        to_json(self)
+    }
+
+    /// Reads what [`Run::to_json`] wrote; `name` is the file, for the error.
+    ///
+    /// # Errors
+    /// When the text is no JSON, a key is missing or of another type, or the format is of another version.
+    pub fn from_json(name: &str, text: &str) -> Result<Self> {
+        from_json(name, text)
+    }
+}
+
+impl Results {
+    /// # Errors
+    /// When a value cannot be written as JSON.
+    pub fn to_json(&self) -> Result<String> {
+        to_json(self)
+    }
+
+    /// # Errors
+    /// As [`Run::from_json`].
+    pub fn from_json(name: &str, text: &str) -> Result<Self> {
+        from_json(name, text)
+    }
+}
+
+fn to_json(value: &impl Serialize) -> Result<String> {
+    let mut text = serde_json::to_string_pretty(value).map_err(|e| {
+        Error::output("results", format!("cannot be written as JSON ({e})"), "check paths for names that are not UTF-8")
+    })?;
+    text.push('\n');
+    Ok(text)
+}
+
+fn from_json<T: DeserializeOwned>(name: &str, text: &str) -> Result<T> {
+    #[derive(Deserialize)]
+    struct Head {
+        version: u32,
+    }
+    let bad = |e: serde_json::Error| {
+        Error::input(name, format!("is not a results file ({e})"), "give a file that `render --json` or `bench` wrote")
+    };
+    let head: Head = serde_json::from_str(text).map_err(bad)?;
+    if head.version != FORMAT {
+        return Err(Error::input(
+            name,
+            format!("has the format version {}, this program reads {FORMAT}", head.version),
+            "read it with the program that wrote it, or make the runs again",
+        ));
+    }
+    serde_json::from_str(text).map_err(bad)
+}

@@ -1,0 +1,103 @@
+//! `report.html`: one file that needs nothing else. It only reads the results, so it can be made again from
+//! `results.json`; what it claims is computed from the runs.
+
+mod claim;
+mod html;
+mod scene;
+
+use std::fmt::Write;
+
+use self::html::{Html, escape};
+use super::comparison::groups;
+use super::picture::Picture;
+use super::record::Results;
+use crate::error::Result;
+
+pub use claim::claims;
+
+const STYLE: &str = include_str!("style.css");
+const METHOD: &str = include_str!("method.html");
+
+/// What the report is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct ReportInput<'a> {
+    pub title: &'a str,
+    pub results: &'a Results,
+    /// Pictures by the place of their run in the results.
+    pub pictures: &'a [(usize, Picture)],
+    /// Differences to the reference, as [`difference`](super::error::difference) makes them.
+    pub differences: &'a [Difference],
+}
+
+/// A picture of the differences of a run to its reference.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// Place of the run in the results.
+    pub run: usize,
+    /// What the differences were multiplied with.
+    pub gain: f64,
+    pub picture: Picture,
+}
+
+/// The whole file.
+///
+/// # Errors
+/// When a picture is inconsistent or cannot be encoded.
+pub fn report_html(input: &ReportInput) -> Result<String> {
+    let results = input.results;
+    let mut page = Html::default();
+    page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    page.tag("title", input.title);
+    page.raw(&format!("<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n"));
+    page.tag("h1", input.title);
+
+    let groups = groups(&results.runs);
+    page.raw("<div class=\"lead\">\n");
+    for claim in claims(&groups) {
+        page.tag("p", &claim);
+    }
+    page.raw("</div>\n");
+    head(&mut page, input);
+    for group in &groups {
+        scene::section(&mut page, group, input)?;
+    }
+    page.raw(METHOD);
+    page.raw("</main>\n</body>\n</html>\n");
+    Ok(page.text())
+}
+
+/// Devices with their self-checks, and how the runs were made.
+fn head(page: &mut Html, input: &ReportInput) {
+    let results = input.results;
+    page.raw("<h2>Device and run</h2>\n<dl class=\"facts\">\n");
+    let mut devices: Vec<(&str, &str)> = Vec::new();
+    for run in &results.runs {
+        if devices.contains(&(&run.device, &run.driver)) {
+            continue;
+        }
+        devices.push((&run.device, &run.driver));
+        page.fact("Device", &run.device);
+        page.fact("Driver", &run.driver);
+        let mut verdicts = String::new();
+        for (form, verdict) in &run.self_check {
+            let class = match verdict.as_str() {
+                "right" => "right",
+                "not available" => "absent",
+                _ => "wrong",
+            };
+            // Writing to a String cannot fail.
+            let _ = write!(
+                verdicts,
+                "<li><code>{}</code> <span class=\"{class}\">{}</span></li>",
+                escape(form),
+                escape(verdict)
+            );
+        }
+        let verdicts = if verdicts.is_empty() { "not run".into() } else { format!("<ul>{verdicts}</ul>") };
+        page.raw(&format!("<dt>Self-check of culling</dt><dd>{verdicts}</dd>\n"));
+    }
+    page.fact("Date", &results.date);
+    page.fact("Program", &format!("{}, commit {}", results.program, results.commit));
+    page.raw(&format!("<dt>Command</dt><dd><code>{}</code></dd>\n</dl>\n", escape(&results.command)));
+}

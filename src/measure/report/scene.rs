@@ -1,0 +1,101 @@
+//! One scene of the report: pictures, table, plots, plan, settings.
+
+use super::ReportInput;
+use super::html::{Html, escape};
+use crate::error::{Error, Result};
+use crate::measure::comparison::{Grid, Group, forms, label};
+use crate::measure::number::bytes;
+use crate::measure::plot::{fragments_svg, times_svg};
+use crate::measure::record::Run;
+
+/// # Errors
+/// When a picture or a plot cannot be made.
+pub fn section(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()> {
+    page.raw("<section>\n");
+    page.tag("h2", &group.first().scene);
+    page.raw(&format!("<p class=\"sub\">{}</p>\n", escape(&group.subtitle())));
+    pictures(page, group, input)?;
+    page.grid(&Grid::of(group));
+    if let Some(svg) = fragments_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Fragments per pass, {}", group.first().scene),
+            "Fragments that passed all tests, pass by pass. Runs whose counts are the same in every pass under several \
+             forms of culling are one line; a wider line that shows under a narrower one has the same counts there.",
+        );
+    }
+    if let Some(svg) = times_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Time per method, {}", group.first().scene),
+            "Time of a frame. Coloured parts are medians of their own, so their sum need not be the median of the whole, \
+             which the black tick marks.",
+        );
+    }
+    for (_, run) in &group.runs {
+        page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
+    }
+    page.raw("</section>\n");
+    Ok(())
+}
+
+fn name(run: &Run) -> String {
+    forms(run).map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
+}
+
+fn pictures(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()> {
+    page.raw("<div class=\"pictures\">\n");
+    for (i, run) in &group.runs {
+        let Some((_, picture)) = input.pictures.iter().find(|(at, _)| at == i) else { continue };
+        page.raw("<figure>");
+        let in_picture = |e: Error| Error { input: format!("picture of {}, {}", run.scene, name(run)), ..e };
+        page.picture(picture, run.settings.image.background, &format!("{} by {}", run.scene, name(run)))
+            .map_err(in_picture)?;
+        page.raw(&format!("<figcaption>{}", escape(&name(run))));
+        if let Some(difference) = input.differences.iter().find(|d| d.run == *i) {
+            page.raw("<br>");
+            page.picture(&difference.picture, [0.0; 3], "difference to the reference").map_err(in_picture)?;
+            page.raw(&format!("<br>difference to the reference &#215;&#8201;{}", difference.gain));
+        }
+        page.raw("</figcaption></figure>\n");
+    }
+    page.raw("</div>\n");
+    Ok(())
+}
+
+fn detail(page: &mut Html, run: &Run) {
+    if !run.notes.is_empty() {
+        page.raw("<h4>Notes</h4>\n<ul>");
+        for note in &run.notes {
+            page.tag("li", note);
+        }
+        page.raw("</ul>\n");
+    }
+    page.raw("<h4>Plan</h4>\n");
+    page.tag("pre", &run.plan.join("\n"));
+    if !run.left_out.is_empty() {
+        page.raw("<h4>Left out</h4>\n<dl class=\"facts\">\n");
+        for left in &run.left_out {
+            page.fact(&left.what, &left.why);
+        }
+        page.raw("</dl>\n");
+    }
+    if let Some(error) = &run.error {
+        page.raw("<h4>Error</h4>\n<dl class=\"facts\">\n");
+        page.fact("Reference", &error.reference);
+        page.fact("Largest", &format!("{:e}", error.max));
+        page.fact("Root mean square", &format!("{:.3e}", error.rmse));
+        let equal = if error.rmse == 0.0 { "infinite: the pictures are equal" } else { "undefined" };
+        page.fact("PSNR", &error.psnr.map_or_else(|| equal.to_string(), |db| format!("{db:.1} dB")));
+        page.fact("Pixels left out of the largest", &error.undecided.to_string());
+        page.raw("</dl>\n");
+    }
+    page.raw("<h4>Memory</h4>\n<dl class=\"facts\">\n");
+    page.fact("structures", &bytes(run.bytes));
+    for (resource, size) in &run.memory {
+        page.fact(resource, &bytes(*size));
+    }
+    page.raw("</dl>\n<h4>Settings</h4>\n");
+    let settings = serde_json::to_string_pretty(&run.settings).unwrap_or_else(|e| format!("not available ({e})"));
+    page.tag("pre", &settings);
+}

@@ -1,0 +1,50 @@
+//! The comparison as plain text, after the tables of [Thesis §5.6]: rows are methods, numbers stand right.
+
+use std::fmt::Write;
+
+use super::comparison::{COLUMNS, Cell, Grid, Group, groups, note_mark};
+use super::record::Run;
+
+/// One table a scene, with its footnotes; empty where there are no runs.
+pub fn table(runs: &[Run]) -> String {
+    groups(runs).iter().map(group_table).collect::<Vec<_>>().join("\n")
+}
+
+fn group_table(group: &Group) -> String {
+    let grid = Grid::of(group);
+    let rows: Vec<Vec<String>> = grid.rows.iter().map(|row| row.iter().map(cell_text).collect()).collect();
+    let width = |c: usize| {
+        let head = COLUMNS[c].head.iter().map(|h| h.len());
+        head.chain(rows.iter().map(|row| row[c].chars().count())).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();
+    let line = |cells: &[&str]| {
+        let padded: Vec<String> = cells
+            .iter()
+            .zip(COLUMNS.iter().zip(&widths))
+            .map(|(text, (column, &w))| if column.right { format!("{text:>w$}") } else { format!("{text:<w$}") })
+            .collect();
+        format!("{}\n", padded.join("  ").trim_end())
+    };
+
+    let run = group.first();
+    let mut out = format!("{}\n{}\n{}, {}\n\n", run.scene, group.subtitle(), run.device, run.driver);
+    out += &line(&COLUMNS.map(|c| c.head[0]));
+    out += &line(&COLUMNS.map(|c| c.head[1]));
+    out += &format!("{}\n", "-".repeat(widths.iter().sum::<usize>() + 2 * (widths.len() - 1)));
+    for row in &rows {
+        out += &line(&row.iter().map(String::as_str).collect::<Vec<_>>());
+    }
+    for (i, note) in grid.notes.iter().enumerate() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "({}) {note}", note_mark(i));
+    }
+    out
+}
+
+fn cell_text(cell: &Cell) -> String {
+    match cell.note {
+        Some(note) => format!("{} ({})", cell.text, note_mark(note)),
+        None => cell.text.clone(),
+    }
+}

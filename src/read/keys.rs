@@ -1,0 +1,18 @@
+//! What serde says of a wrong key or name, told with the nearest known one. The keys are said once, by the structs.
+
+use crate::scene::builtin::nearest;
+
+/// Problem and remedy in a deserializer's message: ``unknown field `x`, expected one of `a`, `b` `` becomes
+/// "unknown key `x`" and "did you mean `a`? known are `a`, `b`"; other messages stay as they are.
+pub fn explain(message: &str) -> (String, String) {
+    let message = message.trim().replace('\n', ", ");
+    for (said, kind) in [("unknown field ", "key"), ("unknown variant ", "name")] {
+        let Some(rest) = message.strip_prefix(said) else { continue };
+        let mut quoted = rest.split('`').skip(1).step_by(2);
+        let wrong = quoted.next().unwrap_or_default();
+        let known: Vec<&str> = quoted.collect();
+        let near = nearest(wrong, known.iter().copied()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
+        return (format!("has the unknown {kind} `{wrong}`"), format!("{near}known are {}", known.join(", ")));
+    }
+    (format!("is wrong: {message}"), "correct it".into())
+}

@@ -1,0 +1,165 @@
+//! Scenes: settings from a TOML file or from a run's JSON, and everything they name, loaded and checked.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use super::RawLayout;
+use crate::error::{Error, Result};
+use crate::scene::settings::{Settings, VolumeSettings};
+use crate::scene::{Camera, Field, Scene, Volume, builtin};
+
+/// The volume of a scene that names none.
+const DEFAULT_VOLUME: &str = "shells:64";
+
+/// Steps that are neither below what single precision resolves nor longer than any volume, in voxels.
+const STEPS: std::ops::RangeInclusive<f64> = 1e-4..=1e6;
+/// The most samples of a pass, and the most passes.
+const MAX_COUNT: u32 = 65536;
+/// The longest side of an image, in pixels.
+const MAX_SIDE: u32 = 65535;
+
+/// The settings in a scene file; its relative paths are made relative to the file at once.
+///
+/// # Errors
+/// When the file cannot be read, is no TOML, or has a wrong key or value; line and nearest known key are named.
+pub fn settings(path: &Path) -> Result<Settings> {
+    let text = super::text(path)?;
+    let mut settings: Settings = toml::from_str(&text).map_err(|e| {
+        let line = e
+            .span()
+            .map(|span| 1 + text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count());
+        let (problem, remedy) = super::keys::explain(e.message());
+        let place = line.map_or(String::new(), |n| format!(", line {n}"));
+        Error::input(format!("{}{place}", path.display()), problem, remedy)
+    })?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    for file in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
+        *file = base.join(&*file);
+    }
+    Ok(settings)
+}
+
+/// The settings of a run, from the JSON that `render --json` or `bench` wrote: its `settings`, or those of the
+/// only one of its `runs`. `FILE#INDEX` picks among several, counted from 0. Paths stay as the run had them.
+///
+/// # Errors
+/// When the file cannot be read, holds no settings or wrong ones, or several runs and none is picked.
+pub fn settings_from_json(path: &Path) -> Result<Settings> {
+    let (path, index) = picked(path);
+    let bad = |problem: String, remedy: String| Err(Error::input(path.display(), problem, remedy));
+    let mut root: Value = match serde_json::from_str(&super::text(&path)?) {
+        Ok(root) => root,
+        Err(e) => return bad(format!("is no JSON ({e})"), "give the file that `render --json` wrote".into()),
+    };
+    let run = match (root.get_mut("runs").and_then(Value::as_array_mut), index) {
+        (None, None) => &mut root,
+        (None, Some(i)) => return bad(format!("has no `runs` to pick #{i} from"), format!("leave out #{i}")),
+        (Some(runs), None) if runs.len() > 1 => {
+            let pick = format!("pick one with {0}#0 to {0}#{1}", path.display(), runs.len() - 1);
+            return bad(format!("holds {} runs", runs.len()), pick);
+        }
+        (Some(runs), index) => {
+            let (count, index) = (runs.len(), index.unwrap_or(0));
+            match runs.get_mut(index) {
+                Some(run) => run,
+                None => return bad(format!("holds {count} runs and none numbered {index}"), "pick another".into()),
+            }
+        }
+    };
+    let Some(settings) = run.get_mut("settings").map(Value::take) else {
+        return bad("holds no `settings`".into(), "give the file that `render --json` or `bench` wrote".into());
+    };
+    serde_json::from_value(settings).or_else(|e| {
+        let (problem, remedy) = super::keys::explain(&e.to_string());
+        Err(Error::input(format!("{}: settings", path.display()), problem, remedy))
+    })
+}
+
+/// The file and the number behind its `#`, unless a file has that very name.
+fn picked(path: &Path) -> (PathBuf, Option<usize>) {
+    let split = || {
+        let (file, index) = path.to_str()?.rsplit_once('#')?;
+        Some((PathBuf::from(file), Some(index.parse().ok()?)))
+    };
+    if path.exists() { None } else { split() }.unwrap_or_else(|| (path.into(), None))
+}
+
+/// Loads what `settings` name and checks every value. Paths are taken as they stand.
+///
+/// # Errors
+/// When a value lies outside its range, settings contradict each other, or a file is wrong.
+pub fn scene(settings: &Settings) -> Result<Scene> {
+    check_ranges(settings)?;
+    let camera = Camera::from(&settings.camera);
+    camera.basis()?;
+    let transfer = super::transfer(&settings.transfer, Path::new(""))?;
+    let field = Field::new(volume(&settings.volume)?, settings.volume.range, settings.volume.nan)?;
+    Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera })
+}
+
+fn check_ranges(settings: &Settings) -> Result<()> {
+    let sampling = &settings.sampling;
+    let check = |good: bool, key: &str, value: String, remedy: String| {
+        if good { Ok(()) } else { Err(Error::usage(key, format!("is {value}"), remedy)) }
+    };
+    check(
+        STEPS.contains(&sampling.step),
+        "sampling.step",
+        sampling.step.to_string(),
+        format!("give a number of voxels from {} to {}", STEPS.start(), STEPS.end()),
+    )?;
+    check(
+        (1..=MAX_COUNT).contains(&sampling.samples_per_pass),
+        "sampling.samples_per_pass",
+        sampling.samples_per_pass.to_string(),
+        format!("give a number from 1 to {MAX_COUNT}"),
+    )?;
+    check(
+        sampling.passes <= MAX_COUNT,
+        "sampling.passes",
+        sampling.passes.to_string(),
+        format!("give a number up to {MAX_COUNT}, or 0 for as many as the view needs"),
+    )?;
+    check(
+        (0.0..=1.0).contains(&sampling.termination),
+        "sampling.termination",
+        sampling.termination.to_string(),
+        "give an opacity from 0 to 1 (1 ends no ray early)".into(),
+    )?;
+    check(
+        settings.image.size.iter().all(|n| (1..=MAX_SIDE).contains(n)),
+        "image.size",
+        format!("{:?}", settings.image.size),
+        format!("give width and height from 1 to {MAX_SIDE} pixels"),
+    )?;
+    check(
+        settings.image.background.iter().all(|c| (0.0..=1.0).contains(c)),
+        "image.background",
+        format!("{:?}", settings.image.background),
+        "give red, green and blue from 0 to 1".into(),
+    )
+}
+
+fn volume(settings: &VolumeSettings) -> Result<Volume> {
+    let raw = match (settings.dims, settings.voxel_type, settings.spacing) {
+        (Some(dims), Some(voxel_type), spacing) => {
+            Some(RawLayout { dims, voxel_type, spacing: spacing.unwrap_or([1.0; 3]), big_endian: false })
+        }
+        (None, None, None) => None,
+        (dims, _, _) => {
+            let missing = if dims.is_none() { "dims" } else { "type" };
+            let problem = format!("has some of dims, type and spacing, but not {missing}");
+            return Err(Error::usage("volume", problem, format!("add {missing} (raw files), or remove the others")));
+        }
+    };
+    match (&settings.path, &settings.builtin) {
+        (Some(_), Some(_)) => Err(Error::usage("volume", "has both path and builtin", "keep one of them")),
+        (Some(path), None) => super::volume(path, raw),
+        (None, _) if raw.is_some() => {
+            Err(Error::usage("volume", "has dims and type but no path", "give the path of a raw file, or remove them"))
+        }
+        (None, name) => builtin::volume(name.as_deref().unwrap_or(DEFAULT_VOLUME)),
+    }
+}

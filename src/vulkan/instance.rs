@@ -1,0 +1,215 @@
+//! The Vulkan loader, the instance, and what the validation layer said.
+
+use std::ffi::{CStr, c_void};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::{ext, vk};
+
+use super::failure::failed;
+use super::suppressed::SUPPRESSED;
+use crate::error::{Error, Result};
+
+const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// The version that is needed: synchronization2 and timeline semaphores without extensions.
+pub(super) const API_VERSION: u32 = vk::API_VERSION_1_3;
+
+/// Messages kept; a barrier left out can bring one for every draw.
+const MAX_MESSAGES: usize = 1000;
+
+type Messages = Mutex<Vec<String>>;
+
+/// A loaded Vulkan instance. Lives until the last device made from it is gone.
+pub struct Instance {
+    pub raw: ash::Instance,
+    debug_utils: bool,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    /// Boxed: the driver holds its address while the instance lives.
+    messages: Box<Messages>,
+    /// Holds the library; dropped last.
+    _entry: ash::Entry,
+}
+
+impl Instance {
+    /// Loads the system's Vulkan loader. With `validate` the Khronos validation layer is on, synchronization
+    /// validation included, and its messages are collected.
+    ///
+    /// # Errors
+    /// No loader, a loader older than Vulkan 1.3, or `validate` without the layer.
+    pub fn new(validate: bool) -> Result<Arc<Self>> {
+        // SAFETY: loading runs the initialisers of the system's own loader; there is no other way to reach Vulkan.
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| {
+            Error::device(
+                "Vulkan loader",
+                format!("libvulkan cannot be loaded ({error})"),
+                "install it (Debian: libvulkan1, and mesa-vulkan-drivers for a driver)",
+            )
+        })?;
+        // SAFETY: the loader has been loaded; the call takes nothing.
+        let version = unsafe { entry.try_enumerate_instance_version() }
+            .map_err(|code| failed("vkEnumerateInstanceVersion", "Vulkan loader", code))?
+            .unwrap_or(vk::API_VERSION_1_0);
+        if version < API_VERSION {
+            return Err(Error::device(
+                "Vulkan loader",
+                format!("speaks Vulkan {}, 1.3 is needed", version_name(version)),
+                "install a newer one (Debian: libvulkan1 of release 12 or later)",
+            ));
+        }
+
+        let mut layers = Vec::new();
+        if validate {
+            // SAFETY: as above.
+            let present = unsafe { entry.enumerate_instance_layer_properties() }
+                .map_err(|code| failed("vkEnumerateInstanceLayerProperties", "Vulkan loader", code))?;
+            if !present.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
+                return Err(Error::device(
+                    "validation",
+                    "the layer VK_LAYER_KHRONOS_validation is not installed",
+                    "install it (Debian: vulkan-validationlayers) or run without validation",
+                ));
+            }
+            layers.push(VALIDATION_LAYER);
+        }
+
+        let from_loader = extensions(&entry, None)?;
+        let from_layer = if validate { extensions(&entry, Some(VALIDATION_LAYER))? } else { Vec::new() };
+        let has = |name: &CStr| from_loader.iter().chain(&from_layer).any(|extension| extension.as_c_str() == name);
+        let debug_utils = has(ext::debug_utils::NAME);
+        let validation_features = validate && has(ext::validation_features::NAME);
+        if validate && !(debug_utils && validation_features) {
+            return Err(Error::device(
+                "validation",
+                "the installed layer cannot report messages or has no synchronization validation",
+                "install another version (Debian: vulkan-validationlayers)",
+            ));
+        }
+        let mut names = Vec::new();
+        for (on, name) in [(debug_utils, ext::debug_utils::NAME), (validation_features, ext::validation_features::NAME)]
+        {
+            if on {
+                names.push(name.as_ptr());
+            }
+        }
+
+        let messages: Box<Messages> = Box::default();
+        let application = vk::ApplicationInfo::default()
+            .application_name(c"depthleap")
+            .engine_name(c"depthleap")
+            .api_version(API_VERSION);
+        let layers: Vec<_> = layers.iter().map(|name| name.as_ptr()).collect();
+        let mut info = vk::InstanceCreateInfo::default()
+            .application_info(&application)
+            .enabled_layer_names(&layers)
+            .enabled_extension_names(&names);
+        let mut messenger_info = messenger_info(&messages);
+        let sync = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&sync);
+        if validate {
+            info = info.push_next(&mut messenger_info).push_next(&mut features);
+        }
+        // SAFETY: layers and extensions were enumerated above; everything `info` points to outlives the call, and
+        // `messages` the instance.
+        let raw = unsafe { entry.create_instance(&info, None) }
+            .map_err(|code| failed("vkCreateInstance", "Vulkan instance", code))?;
+
+        let mut instance = Self { raw, debug_utils, messenger: None, messages, _entry: entry };
+        if validate {
+            let debug = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
+            // SAFETY: the extension is on; the callback's data lives as long as the instance.
+            let messenger =
+                unsafe { debug.create_debug_utils_messenger(&self::messenger_info(&instance.messages), None) }
+                    .map_err(|code| failed("vkCreateDebugUtilsMessengerEXT", "Vulkan instance", code))?;
+            instance.messenger = Some((debug, messenger));
+        }
+        Ok(Arc::new(instance))
+    }
+
+    /// Warnings and errors collected so far, each with its id and the names of the objects it is about. Empty
+    /// without validation.
+    pub fn messages(&self) -> Vec<String> {
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Whether the validation layer is on.
+    pub fn validates(&self) -> bool {
+        self.messenger.is_some()
+    }
+
+    /// Whether objects can be named and commands labelled.
+    pub(super) fn debug_utils(&self) -> bool {
+        self.debug_utils
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: devices hold the instance, so none is left; the messenger goes before its instance.
+        unsafe {
+            if let Some((debug, messenger)) = self.messenger.take() {
+                debug.destroy_debug_utils_messenger(messenger, None);
+            }
+            self.raw.destroy_instance(None);
+        }
+    }
+}
+
+/// A Vulkan version as "1.3.250".
+pub(super) fn version_name(version: u32) -> String {
+    let [major, minor, patch] =
+        [vk::api_version_major(version), vk::api_version_minor(version), vk::api_version_patch(version)];
+    format!("{major}.{minor}.{patch}")
+}
+
+fn extensions(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<std::ffi::CString>> {
+    // SAFETY: the loader has been loaded and the layer, if any, was enumerated.
+    let found = unsafe { entry.enumerate_instance_extension_properties(layer) }
+        .map_err(|code| failed("vkEnumerateInstanceExtensionProperties", "Vulkan loader", code))?;
+    Ok(found.iter().filter_map(|one| one.extension_name_as_c_str().ok().map(CStr::to_owned)).collect())
+}
+
+/// Warnings and errors about validity and in general; performance advice is for another tool.
+fn messenger_info(messages: &Messages) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+    use vk::{DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type};
+    vk::DebugUtilsMessengerCreateInfoEXT::default()
+        .message_severity(Severity::WARNING | Severity::ERROR)
+        .message_type(Type::GENERAL | Type::VALIDATION)
+        .pfn_user_callback(Some(collect))
+        .user_data(std::ptr::from_ref(messages).cast_mut().cast())
+}
+
+unsafe extern "system" fn collect(
+    _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    messages: *mut c_void,
+) -> vk::Bool32 {
+    // SAFETY: the specification promises valid callback data; `messages` is the box that `messenger_info` was
+    // given, which outlives the instance.
+    let (data, messages) = unsafe { (&*data, &*messages.cast::<Messages>()) };
+    // SAFETY: strings of the callback data are null or end with a zero.
+    let text = |string: *const std::ffi::c_char| match string.is_null() {
+        true => String::new(),
+        false => unsafe { CStr::from_ptr(string) }.to_string_lossy().into_owned(),
+    };
+    let id = text(data.p_message_id_name);
+    if SUPPRESSED.iter().any(|(suppressed, _)| *suppressed == id) {
+        return vk::FALSE;
+    }
+    let mut line = format!("{id}: {}", text(data.p_message));
+    let objects = match data.p_objects.is_null() {
+        true => &[],
+        // SAFETY: the callback data says how many objects there are.
+        false => unsafe { std::slice::from_raw_parts(data.p_objects, data.object_count as usize) },
+    };
+    let names: Vec<_> =
+        objects.iter().map(|object| text(object.p_object_name)).filter(|name| !name.is_empty()).collect();
+    if !names.is_empty() {
+        line += &format!(" [{}]", names.join(", "));
+    }
+    let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
+    if messages.len() < MAX_MESSAGES {
+        messages.push(line);
+    }
+    vk::FALSE
+}

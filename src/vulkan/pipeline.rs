@@ -1,0 +1,212 @@
+//! Graphics and compute pipelines.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::device::Device;
+use super::failure::misuse;
+use super::format::{has_alpha, texel_bytes};
+use super::layout::Layout;
+use super::owned::Owned;
+use super::render_pass::{RenderPass, Role};
+use super::shader::Shader;
+use super::stages::Stages;
+use crate::error::{Error, Result};
+
+/// What happens between a fragment's depth and the stored one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct DepthState {
+    /// Without the test nothing is written either.
+    pub test: bool,
+    pub write: bool,
+    pub compare: vk::CompareOp,
+    /// The depth bounds test, with bounds set while recording.
+    pub bounds: bool,
+}
+
+impl DepthState {
+    /// No test, no write.
+    pub const OFF: Self = Self { test: false, write: false, compare: vk::CompareOp::ALWAYS, bounds: false };
+}
+
+/// How a fragment's colour goes into the attachments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Blend {
+    Replace,
+    /// Front to back, premultiplied: `dst += (1 - dst.a) * src`. An attachment whose format has no alpha is
+    /// replaced.
+    Over,
+}
+
+/// What a graphics pipeline is made from. Triangle lists, both faces; viewport, scissor and depth bounds are
+/// set while recording.
+pub struct GraphicsPipelineInfo<'a> {
+    pub name: &'a str,
+    pub vertex: &'a Shader,
+    pub fragment: Option<&'a Shader>,
+    /// Specialization constants by name, with the bits of their values.
+    pub constants: &'a [(&'a str, u32)],
+    pub render_pass: &'a RenderPass,
+    /// One attribute at location 0, tightly packed; `None`: no vertex buffer.
+    pub vertex_format: Option<vk::Format>,
+    pub depth: DepthState,
+    pub blend: Blend,
+}
+
+pub struct GraphicsPipeline {
+    pub name: String,
+    pub layout: Arc<Layout>,
+    pub depth: DepthState,
+    pub(super) owned: Arc<Owned<vk::Pipeline>>,
+}
+
+impl GraphicsPipeline {
+    /// # Errors
+    /// Shaders of the wrong stage or that contradict each other, a constant that no shader has, a depth state
+    /// without a depth attachment, a missing device feature.
+    pub fn new(device: &Arc<Device>, info: &GraphicsPipelineInfo<'_>) -> Result<Self> {
+        let name = info.name;
+        let shaders: Vec<&Shader> = std::iter::once(info.vertex).chain(info.fragment).collect();
+        for (shader, stage) in shaders.iter().zip([vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT]) {
+            expect_stage(name, shader, stage)?;
+        }
+        check_depth(device, info)?;
+        let blends = blends(device, info)?;
+        let layout = Layout::new(device, name, &shaders)?;
+        let stages = Stages::new(device, name, &shaders, info.constants)?;
+
+        let mut binding = Vec::new();
+        let mut attribute = Vec::new();
+        if let Some(format) = info.vertex_format {
+            let stride =
+                texel_bytes(format).ok_or_else(|| misuse(name, format!("vertices of {format:?}: unknown size")))?;
+            binding.push(vk::VertexInputBindingDescription::default().stride(stride as u32));
+            attribute.push(vk::VertexInputAttributeDescription::default().format(format));
+        }
+        let input = vk::PipelineVertexInputStateCreateInfo::default()
+            .vertex_binding_descriptions(&binding)
+            .vertex_attribute_descriptions(&attribute);
+        let assembly =
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+        let raster = vk::PipelineRasterizationStateCreateInfo::default()
+            .polygon_mode(vk::PolygonMode::FILL)
+            .cull_mode(vk::CullModeFlags::NONE)
+            .line_width(1.0);
+        let samples =
+            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(info.depth.test)
+            .depth_write_enable(info.depth.write)
+            .depth_compare_op(info.depth.compare)
+            .depth_bounds_test_enable(info.depth.bounds)
+            .max_depth_bounds(1.0);
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
+        let mut states = vec![vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+        states.extend(info.depth.bounds.then_some(vk::DynamicState::DEPTH_BOUNDS));
+        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
+
+        let specializations = stages.specializations();
+        let stages_info = stages.infos(&specializations);
+        let create = vk::GraphicsPipelineCreateInfo::default()
+            .stages(&stages_info)
+            .vertex_input_state(&input)
+            .input_assembly_state(&assembly)
+            .viewport_state(&viewport)
+            .rasterization_state(&raster)
+            .multisample_state(&samples)
+            .depth_stencil_state(&depth)
+            .color_blend_state(&blend)
+            .dynamic_state(&dynamic)
+            .layout(layout.owned.raw)
+            .render_pass(info.render_pass.owned.raw);
+        // SAFETY: everything `create` points to outlives the call; all handles are of this device.
+        let made = unsafe { device.raw.create_graphics_pipelines(device.cache, &[create], None) };
+        let owned = own(device, "vkCreateGraphicsPipelines", name, made)?;
+        Ok(Self { name: name.into(), layout, depth: info.depth, owned })
+    }
+}
+
+pub struct ComputePipeline {
+    pub name: String,
+    pub layout: Arc<Layout>,
+    pub(super) owned: Arc<Owned<vk::Pipeline>>,
+}
+
+impl ComputePipeline {
+    /// `constants`: specialization constants by name, with the bits of their values.
+    ///
+    /// # Errors
+    /// A shader of another stage, a constant it does not have.
+    pub fn new(device: &Arc<Device>, name: &str, shader: &Shader, constants: &[(&str, u32)]) -> Result<Self> {
+        expect_stage(name, shader, vk::ShaderStageFlags::COMPUTE)?;
+        let shaders = [shader];
+        let layout = Layout::new(device, name, &shaders)?;
+        let stages = Stages::new(device, name, &shaders, constants)?;
+        let specializations = stages.specializations();
+        let create =
+            vk::ComputePipelineCreateInfo::default().stage(stages.infos(&specializations)[0]).layout(layout.owned.raw);
+        // SAFETY: everything `create` points to outlives the call; all handles are of this device.
+        let made = unsafe { device.raw.create_compute_pipelines(device.cache, &[create], None) };
+        let owned = own(device, "vkCreateComputePipelines", name, made)?;
+        Ok(Self { name: name.into(), layout, owned })
+    }
+}
+
+type Made = Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>;
+
+fn own(device: &Arc<Device>, call: &str, name: &str, made: Made) -> Result<Arc<Owned<vk::Pipeline>>> {
+    let raw = device.check(call, name, made.map_err(|(_, code)| code))?[0];
+    device.name(raw, name);
+    // SAFETY of the destroyer: called once, when nothing uses the pipeline any more.
+    Ok(Owned::new(device, raw, |device, raw| unsafe { device.destroy_pipeline(raw, None) }))
+}
+
+fn expect_stage(name: &str, shader: &Shader, stage: vk::ShaderStageFlags) -> Result<()> {
+    match shader.stage == stage {
+        true => Ok(()),
+        false => Err(misuse(name, format!("{} is a {:?} shader in the place of {stage:?}", shader.name, shader.stage))),
+    }
+}
+
+fn check_depth(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<()> {
+    let attached = info.render_pass.info.attachments.iter().any(|one| one.role == Role::Depth);
+    if (info.depth.test || info.depth.bounds) && !attached {
+        let problem = format!("tests depth in {}, which has no depth attachment", info.render_pass.info.name);
+        return Err(misuse(info.name, problem));
+    }
+    if info.depth.bounds && !device.info.depth_bounds {
+        return Err(Error::device(
+            info.name,
+            format!("{} has no depth bounds test", device.info.name),
+            "cull by another test or choose another device",
+        ));
+    }
+    Ok(())
+}
+
+fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::PipelineColorBlendAttachmentState>> {
+    let colors = info.render_pass.info.attachments.iter().filter(|one| one.role == Role::Color);
+    let over: Vec<_> = colors.map(|one| info.blend == Blend::Over && has_alpha(one.format)).collect();
+    if over.windows(2).any(|pair| pair[0] != pair[1]) && device.features.independent_blend != vk::TRUE {
+        return Err(Error::device(
+            info.name,
+            format!("{} blends all attachments alike (no independentBlend)", device.info.name),
+            "choose another device",
+        ));
+    }
+    let (source, target) = (vk::BlendFactor::ONE_MINUS_DST_ALPHA, vk::BlendFactor::ONE);
+    let state = |over| {
+        vk::PipelineColorBlendAttachmentState::default()
+            .blend_enable(over)
+            .src_color_blend_factor(source)
+            .dst_color_blend_factor(target)
+            .color_blend_op(vk::BlendOp::ADD)
+            .src_alpha_blend_factor(source)
+            .dst_alpha_blend_factor(target)
+            .alpha_blend_op(vk::BlendOp::ADD)
+            .color_write_mask(vk::ColorComponentFlags::RGBA)
+    };
+    Ok(over.into_iter().map(state).collect())
+}
