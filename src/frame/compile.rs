@@ -341,7 +341,7 @@ impl Compiler<'_> {
             }
         }
         let name = step.pass_name();
-        let made = Arc::new(DescriptorSet::new(self.device, name, pipeline.layout(), &bound)?);
+        let made = Arc::new(DescriptorSet::new(self.device, name, &pipeline.layout, &bound)?);
         self.sets.insert(key.clone(), made.clone());
         Ok(made)
     }

@@ -20,7 +20,7 @@ use crate::pass::{Draw, Group, Work};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Scope, Timeline};
+use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Region, Scope, Timeline};
 
 /// What a run measures, besides its wall and CPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -231,7 +231,7 @@ impl GpuFrame {
             Work::Draw(draw) => self.record_draw(commands, i, draw, predicate, measure),
             Work::Copy { from, to, .. } => self.record_copy(commands, *from, *to),
             Work::Clear(resource) => {
-                commands.clear_color(&self.compiled.targets[resource], [0.0; 4]);
+                commands.clear_color(&self.compiled.targets[resource]);
             }
             Work::Dispatch { .. } => {}
         }
@@ -260,7 +260,9 @@ impl GpuFrame {
             commands.depth_bounds(0.0, draw.bound);
         }
         let push = shared::Step { bound: draw.bound, pass: compiled.step.pass };
-        commands.push(objects.pipeline.layout(), bytemuck::bytes_of(&push));
+        if objects.pipeline.layout.push_constants > 0 {
+            commands.push(&objects.pipeline.layout, bytemuck::bytes_of(&push));
+        }
         if let Some(vertices) = &self.compiled.vertices {
             commands.vertices(vertices);
         }
@@ -292,11 +294,11 @@ impl GpuFrame {
         let Some(buffer) = &self.compiled.marks_buffer else { return };
         let write = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
         let read = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
-        let area = self.area();
+        let texels = self.texels();
         commands.buffer_barrier(buffer, read, write);
-        commands.copy_image_to_buffer(&self.compiled.targets[&from], buffer, area);
+        commands.copy_image_to_buffer(&self.compiled.targets[&from], buffer, texels);
         commands.buffer_barrier(buffer, write, read);
-        commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], area);
+        commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], texels);
     }
 
     /// Hands the count of rays left to the draws that follow.
@@ -362,7 +364,7 @@ impl GpuFrame {
         let [width, height] = self.size.map(|n| n as usize);
         let mut pixels = vec![[0.0f32; 4]; width * height];
         let Some(image) = self.compiled.targets.get(&Resource::Accumulated) else { return Ok(pixels) };
-        let (texels, format) = super::upload::read_back(&self.device, image, self.area(), self.accumulated_layout)?;
+        let (texels, format) = super::upload::read_back(&self.device, image, self.texels(), self.accumulated_layout)?;
         self.accumulated_layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let region = self.compiled.region;
         let decoded = super::upload::decode_rgba(&texels, format);
@@ -379,6 +381,11 @@ impl GpuFrame {
             offset: vk::Offset2D { x: r.x as i32, y: r.y as i32 },
             extent: vk::Extent2D { width: r.width, height: r.height },
         }
+    }
+
+    fn texels(&self) -> Region {
+        let r = self.compiled.region;
+        Region { buffer_offset: 0, image_offset: [r.x, r.y, 0], extent: [r.width, r.height, 1] }
     }
 
     fn full_area(&self) -> vk::Rect2D {

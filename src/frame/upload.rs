@@ -11,7 +11,7 @@ use crate::pass::resource::{Resource, Usage};
 use crate::pass::{Work, block_range};
 use crate::scene::Field;
 use crate::vulkan::{
-    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Resource as Bound, Sampler,
+    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Region, Resource as Bound, Sampler,
     Scope, Shader, Timeline,
 };
 
@@ -41,7 +41,7 @@ pub fn image(device: &Arc<Device>, image: &Image, texels: &[u8]) -> Result<()> {
     let mut commands = Commands::begin(device, &device.graphics, "upload")?;
     let (empty, target) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
     commands.image_barrier(image, Scope::NONE, COPY_WRITE, empty, target);
-    commands.copy_buffer_to_whole_image(&staging, image);
+    commands.copy_buffer_to_image(&staging, image, Region::whole(image));
     let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
     commands.image_barrier(image, COPY_WRITE, scope(Usage::Sampled), target, read);
     finish(device, commands)
@@ -70,7 +70,7 @@ pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ra
         (Resource::Volume.name(), Bound::Sampled(volume, &sampler, read)),
         (Resource::BlockRange.name(), Bound::Storage(ranges)),
     ];
-    let set = DescriptorSet::new(device, &step.name, pipeline.layout(), &bound)?;
+    let set = DescriptorSet::new(device, &step.name, &pipeline.layout, &bound)?;
     let begin = ProcessTime::now();
     let (graphics, compute) = (&device.graphics, &device.compute);
     let handed_over = Timeline::new(device, "volume handed over")?;
@@ -78,24 +78,24 @@ pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ra
     let taken_back = Timeline::new(device, "block_range taken back")?;
 
     let mut give = Commands::begin(device, graphics, "volume to compute")?;
-    give.release_image(volume, scope(Usage::Sampled), read, graphics, compute);
+    give.image_release(volume, scope(Usage::Sampled), read, read, compute);
     let give = give.finish()?;
     graphics.submit(&[&give], &[], &[(&handed_over, 1)])?;
 
     let mut build = Commands::begin(device, compute, &step.name)?;
     build.label_begin(&step.name);
-    build.acquire_image(volume, scope(Usage::ComputeRead), read, graphics, compute);
+    build.image_acquire(volume, scope(Usage::ComputeRead), read, read, graphics);
     build.bind_compute(&pipeline, &set);
     build.dispatch(groups);
-    build.release_image(volume, scope(Usage::ComputeRead), read, compute, graphics);
-    build.release_buffer(ranges, scope(Usage::ComputeWrite), compute, graphics);
+    build.image_release(volume, scope(Usage::ComputeRead), read, read, graphics);
+    build.buffer_release(ranges, scope(Usage::ComputeWrite), graphics);
     build.label_end();
     let build = build.finish()?;
     compute.submit(&[&build], &[(&handed_over, 1)], &[(&built, 1)])?;
 
     let mut take = Commands::begin(device, graphics, "block_range to graphics")?;
-    take.acquire_image(volume, scope(Usage::Sampled), read, compute, graphics);
-    take.acquire_buffer(ranges, scope(Usage::Sampled), compute, graphics);
+    take.image_acquire(volume, scope(Usage::Sampled), read, read, compute);
+    take.buffer_acquire(ranges, scope(Usage::Sampled), compute);
     let take = take.finish()?;
     graphics.submit(&[&take], &[(&built, 1)], &[(&taken_back, 1)])?;
     taken_back.wait(1)?;
@@ -109,7 +109,7 @@ pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ra
 pub fn read_back(
     device: &Arc<Device>,
     image: &Image,
-    area: vk::Rect2D,
+    area: Region,
     layout: vk::ImageLayout,
 ) -> Result<(Vec<u8>, vk::Format)> {
     let [width, height, _] = image.info.extent;
@@ -118,7 +118,7 @@ pub fn read_back(
         device,
         BufferInfo {
             name: format!("{} read back", image.info.name),
-            size: u64::from(area.extent.width) * u64::from(area.extent.height) * texel,
+            size: u64::from(area.extent[0]) * u64::from(area.extent[1]) * texel,
             usage: vk::BufferUsageFlags::TRANSFER_DST,
             place: Place::Readback,
         },

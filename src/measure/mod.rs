@@ -15,6 +15,7 @@ pub mod picture;
 pub mod plot;
 pub mod record;
 pub mod report;
+pub mod runner;
 pub mod statistics;
 pub mod table;
 pub mod timing;

@@ -136,6 +136,16 @@ impl Commands {
         unsafe { self.device.raw.cmd_pipeline_barrier2(self.raw, &dependency) };
     }
 
+    /// Fills a colour image that is in layout `TRANSFER_DST_OPTIMAL` with zeros.
+    pub fn clear_color(&mut self, image: &Image) {
+        self.keep(&image.inner);
+        let (layout, range) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, [whole(vk::ImageAspectFlags::COLOR)]);
+        // SAFETY: as in `record_image_barrier`.
+        unsafe {
+            self.device.raw.cmd_clear_color_image(self.raw, image.handle(), layout, &Default::default(), &range);
+        }
+    }
+
     /// The image is in layout `TRANSFER_DST_OPTIMAL`.
     pub fn copy_buffer_to_image(&mut self, buffer: &Buffer, image: &Image, region: Region) {
         if let Some(region) = self.region(buffer, image, region) {

@@ -1,0 +1,111 @@
+//! `depthleap info`: devices, features, queues, and which forms of culling work.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::frame::{SelfCheck, self_check};
+use crate::measure::{write, write_atomically};
+use crate::scene::settings::MethodName;
+use crate::vulkan::{Device, DeviceInfo, Instance, pick};
+
+/// Devices, features, queues, and which --cull works
+#[derive(Debug, Args)]
+pub struct Info {
+    /// Check only this device
+    #[arg(long, value_name = "INDEX|NAME")]
+    device: Option<String>,
+    /// Write it as JSON too
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct InfoJson<'a> {
+    version: u32,
+    devices: Vec<DeviceJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct DeviceJson<'a> {
+    #[serde(flatten)]
+    info: &'a DeviceInfo,
+    self_check: Option<std::collections::BTreeMap<String, String>>,
+    statistics: Option<String>,
+    auto: Option<String>,
+}
+
+impl Info {
+    pub fn run(&self) -> Result<()> {
+        let instance = Instance::new(false)?;
+        let devices = instance.devices()?;
+        let (chosen, reason) = pick(&devices, self.device.as_deref())?;
+        let mut text = String::new();
+        let mut list = Vec::new();
+        for info in &devices {
+            if self.device.is_some() && info.index != chosen.index {
+                continue;
+            }
+            let check = match &info.unusable {
+                Some(_) => None,
+                None => Some(self_check(&Device::new(&instance, info, false)?)?),
+            };
+            describe(&mut text, info, check.as_ref());
+            if info.index == chosen.index {
+                let _ = writeln!(text, "  taken by default: {reason}");
+            }
+            list.push(DeviceJson {
+                info,
+                self_check: check.as_ref().map(SelfCheck::words),
+                statistics: check.as_ref().and_then(|c| c.statistics.clone()),
+                auto: check.and_then(|c| c.automatic(MethodName::NnOmni)).map(|f| f.name()),
+            });
+        }
+        write::write_standard_output(text.as_bytes())?;
+        if let Some(file) = &self.json {
+            let info = InfoJson { version: crate::measure::record::FORMAT, devices: list };
+            let json = serde_json::to_vec_pretty(&info)
+                .map_err(|e| Error::output(file.display(), e, "please report this"))?;
+            write_atomically(file, &json)?;
+        }
+        Ok(())
+    }
+}
+
+fn describe(text: &mut String, info: &DeviceInfo, check: Option<&SelfCheck>) {
+    let yes = |has: bool| if has { "yes" } else { "no" };
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{}: {} ({:?}), Vulkan {}", info.index, info.name, info.kind, info.api_version);
+    let _ = writeln!(text, "  driver: {} {}", info.driver_name, info.driver_info);
+    if let Some(why) = &info.unusable {
+        let _ = writeln!(text, "  cannot be used: {why}");
+        return;
+    }
+    let _ = writeln!(
+        text,
+        "  depth bounds test: {}; precise occlusion counts: {}; conditional rendering: {}",
+        yes(info.depth_bounds),
+        yes(info.occlusion_precise),
+        yes(info.conditional_rendering)
+    );
+    let timestamps = match info.timestamp_valid_bits {
+        0 => "none".to_owned(),
+        bits => format!("{bits} bits of {} ns", info.timestamp_period),
+    };
+    let _ = writeln!(text, "  timestamps: {timestamps}; largest volume {0}^3", info.max_image_3d);
+    for (i, family) in info.queue_families.iter().enumerate() {
+        let _ = writeln!(text, "  queue family {i}: {} x {:?}", family.count, family.flags);
+    }
+    let Some(check) = check else { return };
+    let invocations = check.statistics.as_deref().map_or("believed".to_owned(), |why| format!("not believed, {why}"));
+    let _ = writeln!(text, "  counts of shader invocations: {invocations}");
+    for (form, verdict) in check.words() {
+        let _ = writeln!(text, "  {form:<22} {verdict}");
+    }
+    if let Some(form) = check.automatic(MethodName::NnOmni) {
+        let _ = writeln!(text, "  --cull auto: {}", form.name());
+    }
+}

@@ -1,0 +1,85 @@
+//! Opening the device a command runs on, and closing it: what validation said decides how the program ends.
+
+use clap::{Args, ValueEnum};
+
+use crate::error::{Error, Result};
+use crate::frame::{self, self_check};
+use crate::measure::runner::Checked;
+use crate::vulkan::{Device, Instance, pick};
+
+/// Which device, and how it is used.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Device")]
+pub struct DeviceOptions {
+    /// Index or part of the name of the device (see `depthleap info`)
+    #[arg(long, value_name = "INDEX|NAME")]
+    device: Option<String>,
+    /// Switch the validation layer on, synchronization validation included; a message ends the run with an error
+    #[arg(long)]
+    validate: bool,
+    /// Use one queue for everything, even where there are more
+    #[arg(long)]
+    single_queue: bool,
+    /// How passes that nobody takes part in are left out [default: conditional where the driver has it]
+    #[arg(long)]
+    early_end: Option<EarlyEnd>,
+    /// Compile the shaders from this folder, laid out like glsl/
+    #[cfg(feature = "runtime-shaders")]
+    #[arg(long, value_name = "DIR")]
+    glsl: Option<std::path::PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum EarlyEnd {
+    /// Conditional rendering: the device decides
+    Conditional,
+    /// The count of rays left is read back between batches
+    Readback,
+}
+
+impl DeviceOptions {
+    /// Picks, opens and checks the device.
+    ///
+    /// # Errors
+    /// When there is no loader, layer or device that will do.
+    pub fn open(&self) -> Result<Checked> {
+        #[cfg(feature = "runtime-shaders")]
+        if let Some(folder) = &self.glsl {
+            crate::glsl::set_directory(folder.clone())?;
+        }
+        let instance = Instance::new(self.validate)?;
+        let (info, _) = pick(&instance.devices()?, self.device.as_deref())?;
+        let device = Device::new(&instance, &info, self.single_queue)?;
+        let early_end = self.early_end.map(|way| match way {
+            EarlyEnd::Conditional => frame::EarlyEnd::Conditional,
+            EarlyEnd::Readback => frame::EarlyEnd::ReadBack,
+        });
+        if early_end == Some(frame::EarlyEnd::Conditional) && !info.conditional_rendering {
+            return Err(Error::device(
+                format!("--early-end conditional on {}", info.name),
+                "the driver has no conditional rendering",
+                "use --early-end readback",
+            ));
+        }
+        let check = self_check(&device)?;
+        Ok(Checked { device, check, early_end })
+    }
+
+    /// Ends the use of a device.
+    ///
+    /// # Errors
+    /// When the validation layer said anything.
+    pub fn close(&self, checked: Checked) -> Result<()> {
+        let instance = checked.device.instance().clone();
+        drop(checked);
+        let messages = instance.messages();
+        match messages.first() {
+            None => Ok(()),
+            Some(first) => Err(Error::check(
+                "validation layer",
+                format!("{} message(s), the first: {first}", messages.len()),
+                "this is a bug in depthleap or in the shaders that were changed; please report it with the command line",
+            )),
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! Options that several commands share, and how they change the settings of a scene. Every one of them has its
+//! key in a scene file; an option given on the command line wins.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::error::{Error, Result};
+use crate::read;
+use crate::scene::Camera;
+use crate::scene::field::NanPolicy;
+use crate::scene::settings::{
+    Accumulate, Alpha, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
+};
+use crate::scene::transfer::PRESETS;
+use crate::scene::volume::VoxelType;
+
+/// What to show and how to sample it.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Scene")]
+pub struct SceneOptions {
+    /// Transfer function: ramp, surface, haze, linear, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    tf: Option<String>,
+    /// Length an opacity stands for, in voxels [default: 1]
+    #[arg(long, value_name = "VOXELS")]
+    reference: Option<f64>,
+    /// Scalar range LOW,HIGH that the transfer function covers, in the volume's values
+    #[arg(long, value_name = "LOW,HIGH", value_parser = numbers::<2>, allow_hyphen_values = true)]
+    range: Option<[f64; 2]>,
+    /// What a voxel that is no finite number stands for [default: replace]
+    #[arg(long)]
+    nan: Option<NanPolicy>,
+    /// Sizes of a raw file
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>)]
+    dims: Option<[f64; 3]>,
+    /// Voxel type of a raw file
+    #[arg(long = "type")]
+    voxel_type: Option<VoxelType>,
+    /// Distances of the voxels of a raw file
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>)]
+    spacing: Option<[f64; 3]>,
+    /// How voxels are kept on the device [default: native]
+    #[arg(long)]
+    texture: Option<VolumeTexture>,
+
+    /// Picture size in pixels [default: 500x500]
+    #[arg(long, value_name = "WxH", value_parser = viewport, help_heading = "View")]
+    viewport: Option<[u32; 2]>,
+    /// Eye in volume space: the longest side of the volume is 1, its centre 0,0,0 [default: 0,0,1.91]
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
+    eye: Option<[f64; 3]>,
+    /// Point looked at [default: 0,0,0]
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
+    target: Option<[f64; 3]>,
+    /// Direction that is up in the picture [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
+    up: Option<[f64; 3]>,
+    /// Vertical field of view in degrees [default: 45]
+    #[arg(long, value_name = "DEGREES", help_heading = "View")]
+    fov: Option<f64>,
+    /// Eye on a sphere instead of --eye: degrees from +z towards +x
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "eye", help_heading = "View")]
+    azimuth: Option<f64>,
+    /// Degrees from there towards +y
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "eye", help_heading = "View")]
+    elevation: Option<f64>,
+    /// Distance of the eye from the volume's centre [default: 1.91]
+    #[arg(long, value_name = "UNITS", conflicts_with = "eye", help_heading = "View")]
+    distance: Option<f64>,
+    /// Colour behind the volume in PNG files, linear [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = numbers::<3>, help_heading = "View")]
+    background: Option<[f64; 3]>,
+    /// Format colours are accumulated in [default: rgba32f]
+    #[arg(long, help_heading = "View")]
+    accumulate: Option<Accumulate>,
+
+    /// Distance between samples, in voxels of the finest spacing [default: 1]
+    #[arg(long, value_name = "VOXELS", help_heading = "Sampling")]
+    step: Option<f64>,
+    /// Where in its step a sample is taken [default: left]
+    #[arg(long, help_heading = "Sampling")]
+    offset: Option<Offset>,
+    /// What the last sample of a ray stands for: a full step or what is left [default: full]
+    #[arg(long, help_heading = "Sampling")]
+    last: Option<Last>,
+    /// How opacities are brought to the step [default: exponential]
+    #[arg(long, help_heading = "Sampling")]
+    alpha: Option<Alpha>,
+    /// Who interpolates: the texture unit or the shader in f32 [default: hardware]
+    #[arg(long, help_heading = "Sampling")]
+    filter: Option<Filter>,
+    /// M, samples per main pass [default: 8]
+    #[arg(long, value_name = "M", help_heading = "Sampling")]
+    samples_per_pass: Option<u32>,
+    /// N, main passes; 0 takes as many as the longest ray of the view needs [default: 0]
+    #[arg(long, value_name = "N", help_heading = "Sampling")]
+    passes: Option<u32>,
+    /// T, a ray ends when its opacity is greater [default: 0.95]
+    #[arg(long, value_name = "OPACITY", help_heading = "Sampling")]
+    termination: Option<f64>,
+}
+
+/// Which passes, and how fragments are culled and marked.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Method")]
+pub struct MethodOptions {
+    /// How fragments are culled [default: auto]
+    #[arg(long)]
+    pub cull: Option<Cull>,
+    /// How the intermediate pass stores its decision [default: auto]
+    #[arg(long)]
+    pub mark: Option<Mark>,
+    /// Notice that a ray has left the volume only on arrival, as the papers do
+    #[arg(long)]
+    no_exit_lookahead: bool,
+    /// rc-block: test for empty blocks before the first main pass too
+    #[arg(long)]
+    pub block_first: bool,
+}
+
+impl SceneOptions {
+    /// The settings of `scene` (a scene file, a volume, `builtin:NAME:SIZE`, or nothing) under these options.
+    ///
+    /// # Errors
+    /// When a scene file is wrong.
+    pub fn settings(&self, scene: Option<&str>) -> Result<Settings> {
+        let mut settings = match scene {
+            None => Settings::default(),
+            Some(name) if name.ends_with(".toml") => read::settings(Path::new(name))?,
+            Some(name) => {
+                let mut settings = Settings::default();
+                match name.strip_prefix("builtin:") {
+                    Some(spec) => settings.volume.builtin = Some(spec.to_owned()),
+                    None => settings.volume.path = Some(PathBuf::from(name)),
+                }
+                settings
+            }
+        };
+        self.apply(&mut settings)?;
+        Ok(settings)
+    }
+
+    /// Writes the options that were given over `settings`.
+    ///
+    /// # Errors
+    /// When `dims` are no counts.
+    pub fn apply(&self, settings: &mut Settings) -> Result<()> {
+        /// Over the key where the option was given.
+        fn put<T: Clone>(key: &mut T, option: &Option<T>) {
+            if let Some(value) = option {
+                *key = value.clone();
+            }
+        }
+        fn put_some<T: Clone>(key: &mut Option<T>, option: &Option<T>) {
+            if option.is_some() {
+                key.clone_from(option);
+            }
+        }
+        if let Some(tf) = &self.tf {
+            let reference = settings.transfer.reference;
+            settings.transfer = TransferSettings { reference, ..TransferSettings::default() };
+            if PRESETS.contains(&tf.as_str()) || !tf.contains(['.', '/']) {
+                settings.transfer.preset = Some(tf.clone());
+            } else {
+                settings.transfer.file = Some(PathBuf::from(tf));
+            }
+        }
+        put(&mut settings.transfer.reference, &self.reference);
+        let volume = &mut settings.volume;
+        put_some(&mut volume.range, &self.range);
+        put(&mut volume.nan, &self.nan);
+        put_some(&mut volume.dims, &self.dims.map(counts).transpose()?);
+        put_some(&mut volume.voxel_type, &self.voxel_type);
+        put_some(&mut volume.spacing, &self.spacing);
+        put(&mut volume.texture, &self.texture);
+        let image = &mut settings.image;
+        put(&mut image.size, &self.viewport);
+        put(&mut image.background, &self.background);
+        put(&mut image.accumulate, &self.accumulate);
+        let camera = &mut settings.camera;
+        put(&mut camera.fov_y, &self.fov);
+        put(&mut camera.eye, &self.eye);
+        put(&mut camera.target, &self.target);
+        put(&mut camera.up, &self.up);
+        if self.azimuth.is_some() || self.elevation.is_some() || self.distance.is_some() {
+            let [azimuth, elevation] = [self.azimuth, self.elevation].map(Option::unwrap_or_default);
+            let orbit = Camera::orbit(azimuth, elevation, self.distance.unwrap_or(1.91), camera.fov_y);
+            camera.eye = orbit.eye.to_array();
+        }
+        let sampling = &mut settings.sampling;
+        put(&mut sampling.step, &self.step);
+        put(&mut sampling.offset, &self.offset);
+        put(&mut sampling.last, &self.last);
+        put(&mut sampling.alpha, &self.alpha);
+        put(&mut sampling.filter, &self.filter);
+        put(&mut sampling.samples_per_pass, &self.samples_per_pass);
+        put(&mut sampling.passes, &self.passes);
+        put(&mut sampling.termination, &self.termination);
+        Ok(())
+    }
+}
+
+impl MethodOptions {
+    /// Writes the options that were given over `settings`.
+    pub fn apply(&self, settings: &mut Settings) {
+        let method = &mut settings.method;
+        method.cull = self.cull.unwrap_or(method.cull);
+        method.mark = self.mark.unwrap_or(method.mark);
+        method.exit_lookahead &= !self.no_exit_lookahead;
+        method.block_first |= self.block_first;
+    }
+}
+
+/// What a scene is called in tables: the file without its folder, or the built-in volume.
+pub fn scene_name(settings: &Settings) -> String {
+    let volume = &settings.volume;
+    let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
+    let built_in = || volume.builtin.clone().unwrap_or_else(|| "shells:64".to_owned());
+    let transfer = &settings.transfer;
+    let tf = match (&transfer.preset, &transfer.file) {
+        (Some(name), _) => name.clone(),
+        (None, Some(file)) => file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default(),
+        (None, None) if transfer.points.is_some() => "points".to_owned(),
+        (None, None) => PRESETS[0].to_owned(),
+    };
+    format!("{}, {tf}", file.unwrap_or_else(built_in))
+}
+
+/// Every method that is shown for a scene when none is asked for.
+pub const BENCH_METHODS: [MethodName; 4] = [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni];
+
+fn counts(dims: [f64; 3]) -> Result<[usize; 3]> {
+    if dims.iter().all(|d| d.fract() == 0.0 && (1.0..=1e9).contains(d)) {
+        Ok(dims.map(|d| d as usize))
+    } else {
+        Err(Error::usage("--dims", format!("{dims:?} are no sizes"), "give three whole numbers, 256,256,128 for example"))
+    }
+}
+
+/// `1,2,3` as N numbers.
+fn numbers<const N: usize>(text: &str) -> std::result::Result<[f64; N], String> {
+    let list: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>().map_err(|_| format!("`{part}` is no number")))
+        .collect::<std::result::Result<_, _>>()?;
+    if let Some(odd) = list.iter().find(|n| !n.is_finite()) {
+        return Err(format!("{odd} is not finite"));
+    }
+    list.try_into().map_err(|list: Vec<f64>| format!("{N} numbers are needed, {} are given", list.len()))
+}
+
+/// `500x500` as width and height.
+fn viewport(text: &str) -> std::result::Result<[u32; 2], String> {
+    let (width, height) = text.split_once('x').ok_or("give WIDTHxHEIGHT, 500x500 for example")?;
+    let side = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
+    Ok([side(width)?, side(height)?])
+}

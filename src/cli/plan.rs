@@ -1,0 +1,144 @@
+//! `depthleap plan`: the passes a scene needs, and what is left out.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::options::{MethodOptions, SceneOptions, scene_name};
+use crate::error::{Error, Result};
+use crate::measure::write_atomically;
+use crate::plan::{self, LeftOut, bytes_per_pixel};
+use crate::read;
+use crate::scene::settings::MethodName;
+
+/// The passes a scene needs, and what is left out; needs no GPU
+///
+/// `--cull auto` and `--mark auto` stand for the papers' own forms here, since no device is asked.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  depthleap plan fuel.nrrd --method rc-block\n  depthleap plan --method nn-omni --cull ztest --json plan.json")]
+pub struct Plan {
+    /// Scene file, volume file or builtin:NAME:SIZE [default: builtin:shells:64]
+    #[arg(value_name = "SCENE|VOLUME")]
+    scene: Option<String>,
+    /// Render method [default: nn-omni]
+    #[arg(long)]
+    method: Option<MethodName>,
+    /// Write the plan as JSON too
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    scene_options: SceneOptions,
+    #[command(flatten)]
+    method_options: MethodOptions,
+}
+
+#[derive(Serialize)]
+struct PlanJson<'a> {
+    version: u32,
+    scene: String,
+    method: &'static str,
+    cull: Option<&'static str>,
+    mark: Option<&'static str>,
+    passes: u32,
+    /// x, y, width, height in pixels.
+    region: [u32; 4],
+    steps: Vec<StepJson<'a>>,
+    targets: Vec<TargetJson>,
+    left_out: &'a [LeftOut],
+}
+
+#[derive(Serialize)]
+struct StepJson<'a> {
+    name: &'a str,
+    group: &'static str,
+    reads: Vec<&'static str>,
+    writes: Vec<&'static str>,
+    shader: Option<&'a str>,
+    constants: Vec<(&'static str, u32)>,
+}
+
+#[derive(Serialize)]
+struct TargetJson {
+    name: &'static str,
+    bytes: u64,
+}
+
+impl Plan {
+    pub fn run(&self) -> Result<()> {
+        let mut settings = self.scene_options.settings(self.scene.as_deref())?;
+        self.method_options.apply(&mut settings);
+        settings.method.name = self.method.unwrap_or(settings.method.name);
+        let scene = read::scene(&settings)?;
+        let form = plan::form(&scene, plan::papers_form(settings.method.name))?;
+        let plan = plan::plan(&scene, form)?;
+        let form_name = form.map_or_else(String::new, |f| format!(", {}", f.name()));
+        let mut text = format!(
+            "{}: {}{form_name}, {} main passes of {} samples, {} x {} pixels of {} x {}\n",
+            scene_name(&settings),
+            settings.method.name.name(),
+            plan.passes,
+            settings.sampling.samples_per_pass,
+            plan.view.region.width,
+            plan.view.region.height,
+            settings.image.size[0],
+            settings.image.size[1],
+        );
+        for line in plan.lines() {
+            text.push_str(&line);
+            text.push('\n');
+        }
+        crate::measure::write::write_standard_output(text.as_bytes())?;
+        if let Some(file) = &self.json {
+            let json = serde_json::to_vec_pretty(&to_json(&scene, &plan))
+                .map_err(|e| Error::output(file.display(), e, "please report this"))?;
+            write_atomically(file, &json)?;
+        }
+        Ok(())
+    }
+}
+
+fn to_json<'a>(scene: &crate::scene::Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
+    let names = |step: &crate::pass::Step, writes: bool| {
+        step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
+    };
+    let steps = plan.steps.iter().map(|step| {
+        let draw = match &step.work {
+            crate::pass::Work::Draw(draw) => Some(draw),
+            _ => None,
+        };
+        StepJson {
+            name: &step.name,
+            group: step.group.name(),
+            reads: names(step, false),
+            writes: names(step, true),
+            shader: match &step.work {
+                crate::pass::Work::Dispatch { shader, .. } => Some(shader),
+                _ => draw.and_then(|d| d.shader.as_deref()),
+            },
+            constants: draw.map(|d| d.constants.clone()).unwrap_or_default(),
+        }
+    });
+    let mut targets: Vec<_> =
+        plan.steps.iter().flat_map(|s| &s.accesses).map(|a| a.resource).filter(|r| r.is_target()).collect();
+    targets.sort();
+    targets.dedup();
+    let pixels = u64::from(plan.view.size[0]) * u64::from(plan.view.size[1]);
+    let accumulate = scene.settings.image.accumulate;
+    let region = plan.view.region;
+    PlanJson {
+        version: crate::measure::record::FORMAT,
+        scene: scene_name(&scene.settings),
+        method: scene.settings.method.name.name(),
+        cull: plan.form.map(|f| f.cull_name()),
+        mark: plan.form.map(|f| f.mark_name()),
+        passes: plan.passes,
+        region: [region.x, region.y, region.width, region.height],
+        steps: steps.collect(),
+        targets: targets
+            .into_iter()
+            .map(|r| TargetJson { name: r.name(), bytes: pixels * bytes_per_pixel(r, accumulate) })
+            .collect(),
+        left_out: &plan.left_out,
+    }
+}

@@ -1,0 +1,324 @@
+//! Runs the methods of one scene on a device and fills a [`Run`] for each: counts and times from separate frames,
+//! after warm-ups, the methods' repeats interleaved so that a busy machine troubles all of them alike.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::error::compare;
+use super::picture::Picture;
+use super::record::{Counts, FORMAT, Ideal, LeftOut, PassTimes, Run};
+use super::timing::{HostTimes, Timing, Timings};
+use crate::error::Result;
+use crate::frame::{
+    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
+};
+use crate::pass::Group;
+use crate::pass::cull::Form;
+use crate::pass::resource::Resource;
+use crate::plan::{self, Plan};
+use crate::scene::settings::{MethodName, MethodSettings};
+use crate::scene::Scene;
+use crate::vulkan::Device;
+
+/// How often frames are run.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Frames run and thrown away: the first draw with a new pipeline takes many times as long.
+    pub warmups: usize,
+    /// Frames timed; 0 measures no times.
+    pub repeats: usize,
+    /// Compare with the f64 twin.
+    pub reference: bool,
+}
+
+/// A device that was looked at before it is used.
+pub struct Checked {
+    pub device: Arc<Device>,
+    pub check: SelfCheck,
+    /// How frames end early, where the user says so.
+    pub early_end: Option<EarlyEnd>,
+}
+
+/// A run and its pictures.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    pub run: Run,
+    pub picture: Picture,
+    /// The f64 twin's picture, where there is one.
+    pub reference: Option<Picture>,
+}
+
+/// One scene on one device; what its methods share is made once.
+pub struct Runner<'a> {
+    checked: &'a Checked,
+    scene: Scene,
+    name: String,
+    structures: Structures,
+    resident: Resident,
+    /// The twin's frame, with and without early termination.
+    references: BTreeMap<bool, CpuFrame>,
+}
+
+/// A frame under measurement.
+struct Entry {
+    scene: Scene,
+    plan: Plan,
+    frame: Option<GpuFrame>,
+    counts: FrameRun,
+    picture: Picture,
+    plain: Vec<FrameRun>,
+    timed: Vec<FrameRun>,
+}
+
+impl<'a> Runner<'a> {
+    pub fn new(checked: &'a Checked, scene: Scene, name: String) -> Self {
+        Self {
+            checked,
+            scene,
+            name,
+            structures: Structures::default(),
+            resident: Resident::new(&checked.device),
+            references: BTreeMap::new(),
+        }
+    }
+
+    /// Measures the scene by each of `methods`. `progress` hears what is being done.
+    ///
+    /// # Errors
+    /// When a method has no such form, the device lacks what it needs, or the driver fails.
+    pub fn measure(
+        &mut self,
+        methods: &[MethodSettings],
+        effort: Effort,
+        progress: &dyn Fn(&str),
+    ) -> Result<Vec<Measured>> {
+        let mut entries = Vec::with_capacity(methods.len());
+        for method in methods {
+            progress(&format!("{}: {}", self.name, method.name.name()));
+            entries.push(self.prepare(method, effort)?);
+        }
+        for repeat in 0..effort.repeats {
+            progress(&format!("{}: timing {} of {}", self.name, repeat + 1, effort.repeats));
+            for entry in &mut entries {
+                if let Some(frame) = &mut entry.frame {
+                    entry.plain.push(frame.run(Measure::Nothing)?);
+                    entry.timed.push(frame.run(Measure::Times)?);
+                }
+            }
+        }
+        if effort.reference {
+            progress(&format!("{}: f64 reference", self.name));
+        }
+        entries.into_iter().map(|entry| self.finish(entry, effort)).collect()
+    }
+
+    fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
+        let mut scene = self.scene.clone();
+        scene.settings.method = method.clone();
+        let form = plan::form(&scene, self.checked.check.automatic(method.name))?;
+        self.refuse_missing(form)?;
+        let plan = plan::plan(&scene, form)?;
+        self.structures.prepare(&scene, &plan);
+        let size = scene.settings.image.size;
+        if method.name == MethodName::Cpu {
+            let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
+            let frame = cpu::run(&scene, &plan, &self.structures);
+            let run = FrameRun {
+                frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
+                cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,
+                fragments: Some(frame.counts.clone()),
+                ..FrameRun::default()
+            };
+            let picture = single(&frame, size)?;
+            return Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] });
+        }
+        self.resident.prepare(&scene, &plan, &self.structures)?;
+        let mut frame =
+            GpuFrame::new(&self.checked.device, &scene, &plan, &self.resident, self.checked.early_end)?;
+        for _ in 0..effort.warmups {
+            frame.run(Measure::Nothing)?;
+        }
+        let statistics = self.checked.check.statistics.is_none();
+        let counts = frame.run(Measure::Counts { statistics })?;
+        let picture = Picture::new(size, frame.picture()?)?;
+        Ok(Entry { scene, plan, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
+    }
+
+    /// A form that the device has not is refused; one that it does wrongly is run and named.
+    fn refuse_missing(&self, form: Option<Form>) -> Result<()> {
+        let missing = form.and_then(|form| match self.checked.check.forms.get(&form) {
+            Some(Verdict::Missing(what)) => Some((form, what)),
+            None if form.cull == crate::scene::settings::Cull::Bounds && !self.checked.device.info.depth_bounds => {
+                self.checked.check.forms.iter().find_map(|(_, v)| match v {
+                    Verdict::Missing(what) => Some((form, what)),
+                    _ => None,
+                })
+            }
+            _ => None,
+        });
+        match missing {
+            None => Ok(()),
+            Some((form, what)) => Err(crate::Error::device(
+                format!("--cull {} on {}", form.cull_name(), self.checked.device.info.name),
+                what,
+                "use --cull ztest, or --cull auto, which takes what the device has",
+            )),
+        }
+    }
+
+    /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
+    fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
+        let terminates = scene.settings.method.name != MethodName::Rc;
+        if !self.references.contains_key(&terminates) {
+            let mut scene = scene.clone();
+            scene.settings.sampling.passes = passes;
+            scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
+            let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
+            let frame = cpu::run(&scene, &plan, &Structures::default());
+            self.references.insert(terminates, frame);
+        }
+        Ok(&self.references[&terminates])
+    }
+
+    fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {
+        let size = entry.scene.settings.image.size;
+        let (mut error, mut ideal, mut reference) = (None, None, None);
+        if effort.reference && entry.plan.passes > 0 {
+            let frame = self.reference(&entry.scene, entry.plan.passes)?;
+            let twin = single(frame, size)?;
+            let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
+            error = Some(compared.record("the same sum in f64 (`cpu`)"));
+            ideal = (entry.scene.settings.method.name != MethodName::Rc).then_some(Ideal { main: frame.ideal });
+            reference = Some(twin);
+        }
+        let device = &self.checked.device.info;
+        let on_cpu = entry.frame.is_none();
+        let form = entry.plan.form.filter(|_| !on_cpu);
+        let memory = self.memory(&entry);
+        let counted = |counts: frame::Counts| Counts::of(counts.main, counts.intermediate);
+        let run = Run {
+            version: FORMAT,
+            scene: self.name.clone(),
+            view: view_in_words(&entry.scene),
+            method: entry.scene.settings.method.name.name().to_owned(),
+            cull: form.map(|f| f.cull_name().to_owned()),
+            mark: form.map(|f| f.mark_name().to_owned()),
+            passes: entry.plan.passes,
+            fragments: counted(entry.counts.fragments.clone().unwrap_or_default()),
+            invocations: entry.counts.invocations.clone().map(counted),
+            gpu_ms: gpu_times(&entry.timed),
+            gpu_ms_per_pass: pass_times(&entry.timed, entry.plan.passes),
+            host: host_times(&entry.plain, self.build_ms(&entry.plan)),
+            bytes: self.structure_bytes(&entry.plan),
+            memory,
+            ideal,
+            error,
+            device: if on_cpu { "none (f64 on the CPU)".to_owned() } else { device.name.clone() },
+            driver: if on_cpu { String::new() } else { format!("{} {}", device.driver_name, device.driver_info) },
+            self_check: self.checked.check.words(),
+            left_out: entry
+                .plan
+                .left_out
+                .iter()
+                .map(|l| LeftOut { what: l.what.clone(), why: l.why.clone() })
+                .collect(),
+            plan: entry.plan.lines(),
+            notes: self.notes(&entry),
+            settings: entry.scene.settings.clone(),
+        };
+        Ok(Measured { run, picture: entry.picture, reference })
+    }
+
+    fn notes(&self, entry: &Entry) -> Vec<String> {
+        let mut notes = Vec::new();
+        if let Some(why) = &self.checked.check.statistics {
+            notes.push(format!("shader invocations are not given: {why}"));
+        }
+        if let Some(form) = entry.plan.form
+            && let Some(Verdict::Wrong(what)) = self.checked.check.forms.get(&form)
+        {
+            notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
+        }
+        if entry.scene.settings.method.name == MethodName::RcBlock {
+            let first = entry.scene.settings.method.block_first;
+            let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
+            notes.push(format!("blocks are tested {order}"));
+        }
+        notes
+    }
+
+    /// Time to build what the plan looks up, CPU and device together.
+    fn build_ms(&self, plan: &Plan) -> Option<Timing> {
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        let mut ms = 0.0;
+        if let Some(distance) = self.structures.distance.as_ref().filter(|_| reads(Resource::NearestDistance)) {
+            ms += distance.cpu_ms;
+        }
+        for (resource, built) in &self.resident.build_ms {
+            ms += if reads(*resource) { *built } else { 0.0 };
+        }
+        (ms > 0.0).then(|| Timing::once(ms))
+    }
+
+    fn structure_bytes(&self, plan: &Plan) -> u64 {
+        let structures = [Resource::NearestDistance, Resource::BlockRange, Resource::BlockTable];
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        self.resident.bytes().into_iter().filter(|(r, _)| structures.contains(r) && reads(*r)).map(|(_, b)| b).sum()
+    }
+
+    fn memory(&self, entry: &Entry) -> BTreeMap<String, u64> {
+        let reads = |r: Resource| entry.plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        let shared = self.resident.bytes().into_iter().filter(|(r, _)| entry.frame.is_some() && reads(*r));
+        let own = entry.frame.iter().flat_map(GpuFrame::bytes);
+        shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
+    }
+}
+
+/// A twin's frame in f32.
+fn single(frame: &CpuFrame, size: [u32; 2]) -> Result<Picture> {
+    Picture::new(size, frame.pixels.iter().map(|p| p.map(|c| c as f32)).collect())
+}
+
+/// The camera in words, for tables.
+pub fn view_in_words(scene: &Scene) -> String {
+    let camera = &scene.settings.camera;
+    let list = |v: &[f64; 3]| v.map(|c| format!("{}", (c * 1e4).round() / 1e4)).join(",");
+    let [width, height] = scene.settings.image.size;
+    format!("eye {}, target {}, fov {}, {width}x{height}", list(&camera.eye), list(&camera.target), camera.fov_y)
+}
+
+fn host_times(plain: &[FrameRun], build: Option<Timing>) -> HostTimes {
+    let of = |get: fn(&FrameRun) -> f64| Timing::of(&plain.iter().map(get).collect::<Vec<_>>());
+    HostTimes { frame: of(|r| r.frame_ms), cpu: of(|r| r.cpu_ms), record: of(|r| r.record_ms), build }
+}
+
+fn gpu_times(timed: &[FrameRun]) -> Option<Timings> {
+    let totals: Vec<f64> = timed.iter().filter_map(|r| r.gpu_total_ms).collect();
+    let total = Timing::of(&totals)?;
+    let mut timings = Timings::default();
+    for group in Group::ALL {
+        let sum = |r: &FrameRun| r.step_ms.iter().filter(|s| s.0 == group).map(|s| s.2).sum::<f64>();
+        if timed.iter().any(|r| r.step_ms.iter().any(|s| s.0 == group))
+            && let Some(timing) = Timing::of(&timed.iter().map(sum).collect::<Vec<_>>())
+        {
+            timings.push(group.name(), timing);
+        }
+    }
+    timings.push("total", total);
+    Some(timings)
+}
+
+/// The median time of each pass.
+fn pass_times(timed: &[FrameRun], passes: u32) -> Option<PassTimes> {
+    timed.iter().find(|r| r.gpu_total_ms.is_some())?;
+    let of = |group: Group| -> Vec<f64> {
+        (0..passes)
+            .map(|pass| {
+                let here = |r: &FrameRun| r.step_ms.iter().find(|s| s.0 == group && s.1 == pass).map(|s| s.2);
+                let samples: Vec<f64> = timed.iter().filter_map(here).collect();
+                Timing::of(&samples).map_or(0.0, |t| t.value)
+            })
+            .collect()
+    };
+    Some(PassTimes { main: of(Group::Main), intermediate: of(Group::Intermediate) })
+}
