@@ -71,9 +71,9 @@ pub fn settings_from_json(path: &Path) -> Result<Settings> {
     let Some(settings) = run.get_mut("settings").map(Value::take) else {
         return bad("holds no `settings`".into(), "give the file that `render --json` or `bench` wrote".into());
     };
-    serde_json::from_value(settings).or_else(|e| {
+    serde_json::from_value(settings).map_err(|e| {
         let (problem, remedy) = super::keys::explain(&e.to_string());
-        Err(Error::input(format!("{}: settings", path.display()), problem, remedy))
+        Error::input(format!("{}: settings", path.display()), problem, remedy)
     })
 }
 

@@ -1,0 +1,222 @@
+//! Scene files, transfer function files and settings in JSON: read, resolved, checked, and refused by name.
+
+use std::path::{Path, PathBuf};
+
+use depthleap::read;
+use depthleap::scene::Settings;
+use depthleap::scene::settings::{MethodName, TransferSettings};
+use depthleap::scene::transfer::TransferFunction;
+use tempfile::TempDir;
+
+fn file(name: &str, text: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+fn settings(text: &str) -> depthleap::Result<Settings> {
+    let (_folder, path) = file("a.toml", text);
+    read::settings(&path)
+}
+
+fn from_json(text: &str) -> depthleap::Result<Settings> {
+    let (_folder, path) = file("a.json", text);
+    read::settings_from_json(&path)
+}
+
+#[test]
+fn an_empty_scene_is_the_default_one() {
+    assert_eq!(settings("").unwrap(), Settings::default());
+    let scene = read::scene(&Settings::default()).unwrap();
+    assert_eq!((scene.field.volume.name.as_str(), scene.transfer.name.as_str()), ("builtin:shells:64", "ramp"));
+}
+
+#[test]
+fn every_key_is_read() {
+    let text = r#"
+        [volume]
+        builtin = "jets:32"
+        range = [0, 200]
+        nan = "hole"
+        texture = "r32f"
+        [transfer]
+        points = [[0, 1, 1, 1, 0.0], [1, 1, 1, 1, 0.5]]
+        reference = 2.0
+        [camera]
+        eye = [1, 2, 3]
+        target = [0.1, 0, 0]
+        up = [0, 0, 1]
+        fov_y = 30
+        [image]
+        size = [64, 32]
+        background = [0.1, 0.2, 0.3]
+        accumulate = "rgba16f"
+        [sampling]
+        step = 0.5
+        offset = "midpoint"
+        last = "partial"
+        alpha = "paper"
+        filter = "exact"
+        samples_per_pass = 4
+        passes = 9
+        termination = 1
+        [method]
+        name = "rc-block"
+        cull = "ztest"
+        mark = "copy"
+        exit_lookahead = false
+        block_first = true
+    "#;
+    let settings = settings(text).unwrap();
+    assert_eq!((settings.method.name, settings.sampling.samples_per_pass), (MethodName::RcBlock, 4));
+    assert_eq!((settings.image.size, settings.camera.fov_y), ([64, 32], 30.0));
+    let scene = read::scene(&settings).unwrap();
+    assert_eq!((scene.field.range, scene.transfer.reference), ([0.0, 200.0], 2.0));
+    // What is written out as TOML or JSON is read back the same.
+    assert_eq!(toml::from_str::<Settings>(&toml::to_string(&settings).unwrap()).unwrap(), settings);
+    assert_eq!(from_json(&serde_json::json!({ "settings": settings }).to_string()).unwrap(), settings);
+}
+
+#[test]
+fn paths_are_relative_to_the_scene_file() {
+    let text = "[volume]\npath = \"data/a.nrrd\"\n[transfer]\nfile = \"/abs/map.json\"";
+    let (folder, path) = file("a.toml", text);
+    let settings = read::settings(&path).unwrap();
+    assert_eq!(settings.volume.path.unwrap(), folder.path().join("data/a.nrrd"));
+    assert_eq!(settings.transfer.file.unwrap(), Path::new("/abs/map.json"));
+}
+
+#[test]
+fn a_wrong_key_or_name_is_told_with_its_line_and_the_nearest() {
+    for (text, expected) in [
+        ("[volume]\n\n[sampling]\nsetp = 1.0", [", line 4: ", "unknown key `setp`", "did you mean `step`?"]),
+        ("[volumes]\nrange = [0, 1]", [", line 1: ", "unknown key `volumes`", "did you mean `volume`?"]),
+        ("[method]\nname = \"nn-omin\"", [", line 2: ", "unknown name `nn-omin`", "did you mean `nn-omni`?"]),
+        ("[image]\nzzz = 1", [", line 2: ", "unknown key `zzz`", "known are size, background, accumulate"]),
+        ("[sampling]\nstep = \"long\"", [", line 2: ", "string", "f64"]),
+        ("[sampling]\nstep = 1\nstep = 2", [", line 3: ", "duplicate", ""]),
+        ("[image]\nsize = [-1, 5]", [", line 2: ", "-1", ""]),
+        ("\n\nwhat", [", line 3: ", "", ""]),
+    ] {
+        let message = settings(text).unwrap_err().to_string();
+        assert!(expected.iter().all(|part| message.contains(part)), "{text}: {message}");
+    }
+}
+
+#[test]
+fn deeply_nested_text_is_refused() {
+    settings(&format!("a = {}", "[".repeat(100_000))).unwrap_err();
+    from_json(&"[".repeat(100_000)).unwrap_err();
+}
+
+#[test]
+fn values_out_of_range_are_named_with_their_key() {
+    let refused = |change: fn(&mut Settings), key: &str, value: &str| {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        let message = read::scene(&settings).unwrap_err().to_string();
+        assert!(message.contains(key) && message.contains(value), "{message}");
+    };
+    refused(|s| s.sampling.step = 0.0, "sampling.step", "is 0");
+    refused(|s| s.sampling.step = f64::NAN, "sampling.step", "NaN");
+    refused(|s| s.sampling.step = f64::INFINITY, "sampling.step", "inf");
+    refused(|s| s.sampling.step = 2e6, "sampling.step", "2000000");
+    refused(|s| s.sampling.samples_per_pass = 0, "sampling.samples_per_pass", "is 0");
+    refused(|s| s.sampling.samples_per_pass = 65537, "sampling.samples_per_pass", "65537");
+    refused(|s| s.sampling.passes = 65537, "sampling.passes", "65537");
+    refused(|s| s.sampling.termination = 1.5, "sampling.termination", "1.5");
+    refused(|s| s.sampling.termination = f64::NAN, "sampling.termination", "NaN");
+    refused(|s| s.image.size = [0, 5], "image.size", "[0, 5]");
+    refused(|s| s.image.size = [5, 65536], "image.size", "65536");
+    refused(|s| s.image.background = [0.0, 2.0, 0.0], "image.background", "2.0");
+    refused(|s| s.camera.fov_y = 180.0, "camera", "180");
+    refused(|s| s.transfer.reference = 0.0, "ramp", "reference length 0");
+    refused(|s| s.transfer.preset = Some("ram".into()), "transfer.preset", "did you mean `ramp`?");
+    refused(|s| s.volume.range = Some([1.0, 0.0]), "builtin:shells:64", "[1, 0]");
+}
+
+#[test]
+fn contradicting_volume_settings_are_refused() {
+    let refused = |change: fn(&mut Settings), part: &str| {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        let message = read::scene(&settings).unwrap_err().to_string();
+        assert!(message.contains(part), "{message}");
+    };
+    refused(|s| (s.volume.path, s.volume.builtin) = (Some("a".into()), Some("jets".into())), "both path and builtin");
+    refused(|s| s.volume.dims = Some([1; 3]), "not type");
+    refused(|s| s.volume.spacing = Some([1.0; 3]), "not dims");
+    refused(|s| s.volume.path = Some("absent.nrrd".into()), "absent.nrrd");
+}
+
+#[test]
+fn a_raw_volume_is_read_as_the_scene_says() {
+    let (folder, path) =
+        file("a.toml", "[volume]\npath = \"a.raw\"\ndims = [3, 2, 1]\ntype = \"u8\"\nspacing = [1, 2, 3]");
+    std::fs::write(folder.path().join("a.raw"), [0, 1, 2, 3, 4, 5]).unwrap();
+    let scene = read::scene(&read::settings(&path).unwrap()).unwrap();
+    assert_eq!((scene.field.dims(), scene.field.volume.spacing), ([3, 2, 1], [1.0, 2.0, 3.0]));
+}
+
+#[test]
+fn settings_of_a_run_are_taken_and_of_several_one_is_picked() {
+    let run = |step: f64| {
+        let mut settings = Settings::default();
+        settings.sampling.step = step;
+        serde_json::json!({ "method": "nn-omni", "settings": settings })
+    };
+    let step = |text: &str| from_json(text).map(|s| s.sampling.step);
+    assert_eq!(step(&run(0.5).to_string()), Ok(0.5));
+    assert_eq!(step(&serde_json::json!({ "runs": [run(0.25)] }).to_string()), Ok(0.25));
+    let several = serde_json::json!({ "runs": [run(1.0), run(2.0)] }).to_string();
+    let message = step(&several).unwrap_err().to_string();
+    assert!(message.contains("holds 2 runs") && message.contains("a.json#1"), "{message}");
+    let (_folder, path) = file("a.json", &several);
+    let pick = |n: &str| read::settings_from_json(Path::new(&format!("{}#{n}", path.display())));
+    assert_eq!(pick("1").unwrap().sampling.step, 2.0);
+    assert!(pick("2").unwrap_err().to_string().contains("none numbered 2"));
+    pick("x").unwrap_err();
+    for wrong in ["", "[]", "{}", "{\"runs\": []}", "{\"runs\": 5}", "{\"settings\": 5}", "null"] {
+        step(wrong).unwrap_err();
+    }
+    let typo = step("{\"settings\": {\"sampling\": {\"stp\": 1}}}").unwrap_err().to_string();
+    assert!(typo.contains("did you mean `step`?"), "{typo}");
+}
+
+fn transfer(text: &str, reference: f64) -> depthleap::Result<TransferFunction> {
+    let (folder, _path) = file("map.json", text);
+    read::transfer(&TransferSettings { file: Some("map.json".into()), reference, ..Default::default() }, folder.path())
+}
+
+#[test]
+fn a_transfer_function_file_is_read_relative_to_its_base() {
+    let tf = transfer("{\"points\": [[0, 1, 0.5, 0, 0], [1, 0, 0.5, 1, 0.8]], \"reference\": 3}", 1.0).unwrap();
+    assert_eq!((tf.reference, tf.knots().len(), tf.evaluate(0.5)), (3.0, 2, [0.5, 0.5, 0.5, 0.4]));
+    assert_eq!(transfer("{\"points\": [[0, 1, 1, 1, 0]]}", 2.0).unwrap().reference, 2.0);
+}
+
+#[test]
+fn wrong_transfer_function_files_are_refused() {
+    for (text, part) in [
+        ("{\"point\": [[0, 1, 1, 1, 0]]}", "did you mean `points`?"),
+        ("{\"points\": [[0, 1, 1, 1]]}", "length"),
+        ("{\"points\": []}", "no points"),
+        ("{\"points\": [[0, 1, 1, 1, 2]]}", "opacity 2"),
+        ("{\"points\": [[0, 1, 1, 1, 1e999]]}", "out of range"),
+        ("{\"points\": [[0, 1, 1, 1, 0]], \"reference\": -1}", "-1"),
+        ("{\"points\":\n\n [[0,", "line 3"),
+        ("", "EOF"),
+    ] {
+        let message = transfer(text, 1.0).unwrap_err().to_string();
+        assert!(message.contains("map.json") && message.contains(part), "{text}: {message}");
+    }
+    let two = transfer("{\"points\": [[0, 1, 1, 1, 0]], \"reference\": 3}", 2.0).unwrap_err().to_string();
+    assert!(two.contains("reference length 3, the settings 2"), "{two}");
+}
+
+#[test]
+fn one_source_of_the_transfer_function_is_allowed() {
+    let both = TransferSettings { preset: Some("ramp".into()), points: Some(vec![[0.0; 5]]), ..Default::default() };
+    assert!(read::transfer(&both, Path::new("")).unwrap_err().to_string().contains("more than one"));
+}
