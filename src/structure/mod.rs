@@ -1,1 +1,5 @@
 //! (skeleton)
+
+pub mod blocks;
+pub mod cells;
+pub mod distance;
