@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::open::DeviceOptions;
 use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
 use crate::error::Result;
+use crate::frame::Verdict;
 use crate::measure::error::difference;
 use crate::measure::picture::Picture;
 use crate::measure::record::{FORMAT, Results};
@@ -17,7 +18,6 @@ use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
 use crate::pass::cull::Form;
 use crate::read;
-use crate::frame::Verdict;
 use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
 
 /// Every method on every scene: the main job
@@ -137,12 +137,8 @@ impl Bench {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             runs,
         };
-        let input = ReportInput {
-            title: "Depthleap bench",
-            results: &results,
-            pictures: &pictures,
-            differences: &differences,
-        };
+        let input =
+            ReportInput { title: "Depthleap bench", results: &results, pictures: &pictures, differences: &differences };
         write_atomically(&self.output.join("results.json"), results.to_json()?.as_bytes())?;
         write_atomically(&self.output.join("results.csv"), csv::csv(&results)?.as_bytes())?;
         let report = self.output.join("report.html");

@@ -67,8 +67,8 @@ impl Info {
         write::write_standard_output(text.as_bytes())?;
         if let Some(file) = &self.json {
             let info = InfoJson { version: crate::measure::record::FORMAT, devices: list };
-            let json = serde_json::to_vec_pretty(&info)
-                .map_err(|e| Error::output(file.display(), e, "please report this"))?;
+            let json =
+                serde_json::to_vec_pretty(&info).map_err(|e| Error::output(file.display(), e, "please report this"))?;
             write_atomically(file, &json)?;
         }
         Ok(())

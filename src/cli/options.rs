@@ -234,7 +234,11 @@ fn counts(dims: [f64; 3]) -> Result<[usize; 3]> {
     if dims.iter().all(|d| d.fract() == 0.0 && (1.0..=1e9).contains(d)) {
         Ok(dims.map(|d| d as usize))
     } else {
-        Err(Error::usage("--dims", format!("{dims:?} are no sizes"), "give three whole numbers, 256,256,128 for example"))
+        Err(Error::usage(
+            "--dims",
+            format!("{dims:?} are no sizes"),
+            "give three whole numbers, 256,256,128 for example",
+        ))
     }
 }
 

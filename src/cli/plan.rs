@@ -16,7 +16,9 @@ use crate::scene::settings::MethodName;
 ///
 /// `--cull auto` and `--mark auto` stand for the papers' own forms here, since no device is asked.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  depthleap plan fuel.nrrd --method rc-block\n  depthleap plan --method nn-omni --cull ztest --json plan.json")]
+#[command(
+    after_help = "Examples:\n  depthleap plan fuel.nrrd --method rc-block\n  depthleap plan --method nn-omni --cull ztest --json plan.json"
+)]
 pub struct Plan {
     /// Scene file, volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]

@@ -5,8 +5,8 @@ use cpu_time::ProcessTime;
 use crate::pass::resource::Resource;
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::structure::blocks::Blocks;
-use crate::structure::distance::{self, DistanceField};
+use crate::structure::distance::DistanceField;
+use crate::structure::{self, blocks::Blocks};
 
 /// A structure and what it cost.
 #[derive(Clone, Debug)]
@@ -30,7 +30,8 @@ impl Structures {
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         if self.distance.is_none() && reads(Resource::NearestDistance) {
-            self.distance = Some(timed(|| distance::build(&scene.field, &scene.transfer), DistanceField::bytes));
+            self.distance =
+                Some(timed(|| structure::omni(&scene.field, &scene.transfer), |d| d.distances.len() as u64));
         }
         if self.blocks.is_none() && reads(Resource::BlockRange) {
             self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));

@@ -11,8 +11,8 @@ use crate::pass::resource::{Resource, Usage};
 use crate::pass::{Work, block_range};
 use crate::scene::Field;
 use crate::vulkan::{
-    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Region, Resource as Bound, Sampler,
-    Scope, Shader, Timeline,
+    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Region, Resource as Bound,
+    Sampler, Scope, Shader, Timeline,
 };
 
 const COPY_READ: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);

@@ -105,7 +105,7 @@ pub fn compile(root: &Path, module: &Module) -> Result<Compiled, Broken> {
     let compiler = Compiler::new().map_err(|error| broken(error.to_string()))?;
     let mut options = CompileOptions::new().map_err(|error| broken(error.to_string()))?;
     options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_3 as u32);
-    options.set_target_spirv(shaderc::SpirvVersion::V1_6);
+    options.set_target_spirv(shaderc::SpirvVersion::V1_5);
     options.set_optimization_level(shaderc::OptimizationLevel::Performance);
     options.set_generate_debug_info();
     options.set_include_callback(|path, _, _, _| include(root, path));
@@ -165,7 +165,8 @@ fn read(root: &Path, file: &str) -> Result<String, Broken> {
 }
 
 fn include(root: &Path, path: &str) -> Result<ResolvedInclude, String> {
-    let content = read(root, path).map_err(|broken| format!("{broken}; include paths count from {}", root.display()))?;
+    let content =
+        read(root, path).map_err(|broken| format!("{broken}; include paths count from {}", root.display()))?;
     Ok(ResolvedInclude { resolved_name: root.join(path).display().to_string(), content })
 }
 

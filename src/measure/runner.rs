@@ -16,8 +16,8 @@ use crate::pass::Group;
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
-use crate::scene::settings::{MethodName, MethodSettings};
 use crate::scene::Scene;
+use crate::scene::settings::{MethodName, MethodSettings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -130,11 +130,18 @@ impl<'a> Runner<'a> {
                 ..FrameRun::default()
             };
             let picture = single(&frame, size)?;
-            return Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] });
+            return Ok(Entry {
+                scene,
+                plan,
+                frame: None,
+                plain: vec![run.clone()],
+                counts: run,
+                picture,
+                timed: vec![],
+            });
         }
         self.resident.prepare(&scene, &plan, &self.structures)?;
-        let mut frame =
-            GpuFrame::new(&self.checked.device, &scene, &plan, &self.resident, self.checked.early_end)?;
+        let mut frame = GpuFrame::new(&self.checked.device, &scene, &plan, &self.resident, self.checked.early_end)?;
         for _ in 0..effort.warmups {
             frame.run(Measure::Nothing)?;
         }

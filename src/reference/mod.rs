@@ -3,6 +3,7 @@
 pub mod block_skip;
 pub mod direction;
 pub mod entry;
+pub mod exact;
 pub mod main_pass;
 pub mod near_neighbor;
 pub mod samples;

@@ -1,20 +1,107 @@
+//! Blocks of 8^3 cells with the range of their values, and the table that says which ranges are visible [KW03 §2.3].
+//!
+//! Departure: a block's range is taken over the 9^3 voxels that its cells interpolate. Trilinear filtering reaches the
+//! first voxels of the next block, and a range without them misses a thin wall on a seam.
+
+use rayon::prelude::*;
+
+use super::cells::ROUNDING;
 use crate::scene::{Field, TransferFunction};
+
+/// Cells along a side of a block.
 pub const BLOCK: usize = 8;
-pub fn visibility_table(t: &TransferFunction) -> Vec<u8> {
-    (0..65536).map(|i| { let (h, l) = (i / 256, i % 256); u8::from(l <= h && t.visible(l as f64 / 255.0, h as f64 / 255.0)) }).collect()
+
+/// Codes of the quantised scalar range [0, 1].
+pub const CODES: usize = 256;
+
+/// Relative slack of [`range_codes`]: c / 255, rounded to f32 and multiplied by 255 again, may miss c by a little less.
+const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
+
+/// Blocks along each side, and the minimum and maximum over each block's voxels, x fastest. Holes count as what they
+/// were filled with, which can only make a range wider.
+pub fn ranges(field: &Field) -> ([usize; 3], Vec<[f32; 2]>) {
+    let [nx, ny, nz] = field.dims();
+    let dims = field.cells().map(|cells| cells.div_ceil(BLOCK));
+    let [bx, by, _] = dims;
+    let span = |block: usize, voxels: usize| block * BLOCK..(block * BLOCK + BLOCK + 1).min(voxels);
+    let ranges = (0..dims.iter().product())
+        .into_par_iter()
+        .map(|block| {
+            let (x, y, z) = (block % bx, block / bx % by, block / (bx * by));
+            let mut range = [f32::INFINITY, f32::NEG_INFINITY];
+            for z in span(z, nz) {
+                for y in span(y, ny) {
+                    for &value in &field.values[(z * ny + y) * nx..][span(x, nx)] {
+                        range = [range[0].min(value), range[1].max(value)];
+                    }
+                }
+            }
+            range
+        })
+        .collect();
+    (dims, ranges)
 }
-#[derive(Clone, Debug)]
-pub struct Blocks { dims: [usize; 3], visible: Vec<bool> }
-impl Blocks {
-    pub fn dims(field: &Field) -> [usize; 3] { field.cells().map(|n| n.div_ceil(BLOCK)) }
-    pub fn build(field: &Field, transfer: &TransferFunction) -> Self {
-        let dims = Self::dims(field);
-        let cells = super::cells::interesting(field, transfer);
-        let mut visible = vec![false; dims.iter().product()];
-        let [nx, ny, _] = field.cells();
-        for (i, c) in cells.iter().enumerate() { if *c { let (x, y, z) = (i % nx / 8, i / nx % ny / 8, i / (nx * ny) / 8); visible[(z * dims[1] + y) * dims[0] + x] = true; } }
-        Self { dims, visible }
+
+/// A range of x as 8-bit codes, `(low, high)`, rounded outwards; c / 255 itself becomes c. Values outside [0, 1] are
+/// clamped. In f32 throughout, as on a device.
+pub fn range_codes(min: f32, max: f32) -> (u8, u8) {
+    // Casts from float to u8 saturate.
+    let low = (min * 255.0 * (1.0 + CODE_ROUNDING)).floor() as u8;
+    let high = (max * 255.0 * (1.0 - CODE_ROUNDING)).ceil() as u8;
+    (low, high)
+}
+
+/// CT [KW03 §2.3]: `CODES` x `CODES` entries, `[high code][low code]`, 1 where the transfer function is visible
+/// anywhere in a range with these codes, interpolation's rounding included. Entries with low above high are 0.
+///
+/// Code 0 stands for everything up to 0 and code 255 for everything from 1 on. Where all knots lie within [0, 1] the
+/// function is constant out there and the clamped value says the same; else the whole outside is asked.
+pub fn visibility_table(transfer: &TransferFunction) -> Vec<u8> {
+    let knots = transfer.knots();
+    let open_below = knots[0].x < 0.0;
+    let open_above = knots[knots.len() - 1].x > 1.0;
+    let mut table = vec![0; CODES * CODES];
+    for high in 0..CODES {
+        for low in 0..=high {
+            let (mut from, mut to) = (low as f64 / 255.0, high as f64 / 255.0);
+            // `to` is the larger magnitude. A range of code 0 alone stays the one value 0.
+            let slack = f64::from(ROUNDING) * to;
+            from = if low == 0 && open_below { f64::NEG_INFINITY } else { from - slack };
+            to = if high == CODES - 1 && open_above { f64::INFINITY } else { to + slack };
+            table[high * CODES + low] = u8::from(transfer.visible(from, to));
+        }
     }
-    pub fn visible(&self, [x, y, z]: [usize; 3]) -> bool { self.visible[(z / 8 * self.dims[1] + y / 8) * self.dims[0] + x / 8] }
-    pub fn bytes(&self) -> u64 { self.visible.len() as u64 * 8 }
+    table
+}
+
+/// What `rc-block` looks up: the range of every block and the table CT, as the GPU has them.
+#[derive(Clone, Debug)]
+pub struct Blocks {
+    dims: [usize; 3],
+    ranges: Vec<[f32; 2]>,
+    table: Vec<u8>,
+}
+
+impl Blocks {
+    pub fn build(field: &Field, transfer: &TransferFunction) -> Self {
+        let (dims, ranges) = ranges(field);
+        Self { dims, ranges, table: visibility_table(transfer) }
+    }
+
+    /// Blocks along each side of a volume.
+    pub fn dims(field: &Field) -> [usize; 3] {
+        field.cells().map(|cells| cells.div_ceil(BLOCK))
+    }
+
+    /// Whether anything may show in the block of `cell`.
+    pub fn visible(&self, cell: [usize; 3]) -> bool {
+        let [x, y, z] = cell.map(|c| c / BLOCK);
+        let [min, max] = self.ranges[(z * self.dims[1] + y) * self.dims[0] + x];
+        let (low, high) = range_codes(min, max);
+        self.table[usize::from(high) * CODES + usize::from(low)] != 0
+    }
+
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(self.ranges.as_slice()) + self.table.len()) as u64
+    }
 }

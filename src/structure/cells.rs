@@ -1,10 +1,134 @@
+//! Which cells are interesting: those whose values reach into what the transfer function shows.
+//!
+//! A cell interpolates its 2x2x2 voxels, so its values fill [min, max] of them and the transfer function is asked
+//! over that whole range, never at sample points.
+
+use rayon::prelude::*;
+
 use crate::scene::{Field, TransferFunction};
+
+/// How far interpolation may leave [min, max] by rounding, relative to the larger magnitude of both. A unit in the
+/// last place of f32 is 2^-23 at most; a few of them, of the three interpolations, fit.
+pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+
+/// The range `[low, high]` of a neighbourhood, widened by what interpolation may add. A constant neighbourhood
+/// interpolates to itself exactly and isn't widened, so that a background of 0 stays invisible where opacity
+/// starts at 0.
+#[inline]
+pub fn widened(low: f32, high: f32) -> [f32; 2] {
+    let by = if low < high { (low.abs().max(high.abs()) * ROUNDING).max(f32::MIN_POSITIVE) } else { 0.0 };
+    [low - by, high + by]
+}
+
+/// Where a transfer function shows anything: closed intervals of f32, rising and apart, such that it is visible over
+/// `[low, high]` exactly when that meets one of them. An end at which opacity starts from 0 is not visible itself; the
+/// interval then begins at the next f32.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Support(Vec<[f32; 2]>);
+
+impl Support {
+    pub fn of(transfer: &TransferFunction) -> Self {
+        let knots = transfer.knots();
+        let (first, last) = (knots[0], knots[knots.len() - 1]);
+        // In f64 first, every number a point: an open interval is a closed one between its inner neighbours.
+        let mut closed: Vec<[f64; 2]> = Vec::new();
+        let mut put = |low: f64, high: f64| match closed.last_mut() {
+            Some(before) if low <= before[1].next_up() => before[1] = before[1].max(high),
+            _ => closed.push([low, high]),
+        };
+        if first.opacity > 0.0 {
+            put(f64::NEG_INFINITY, first.x);
+        }
+        for pair in knots.windows(2) {
+            if pair[0].opacity > 0.0 {
+                put(pair[0].x, pair[0].x);
+            }
+            let (low, high) = (pair[0].x.next_up(), pair[1].x.next_down());
+            if (pair[0].opacity > 0.0 || pair[1].opacity > 0.0) && low <= high {
+                put(low, high);
+            }
+        }
+        if last.opacity > 0.0 {
+            put(last.x, f64::INFINITY);
+        }
+        // A range of f32 meets an interval exactly when it meets the f32 within; where there is none, `low` ends up
+        // above `high` and only ranges across both meet it.
+        Self(closed.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())
+    }
+
+    /// Whether anything in `[low, high]` is visible.
+    pub fn meets(&self, low: f32, high: f32) -> bool {
+        let not_below = self.0.partition_point(|interval| interval[1] < low);
+        self.0.get(not_below).is_some_and(|interval| interval[0] <= high)
+    }
+}
+
+/// The least f32 that is not below `x`.
+fn at_least(x: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) < x { rounded.next_up() } else { rounded }
+}
+
+/// The largest f32 that is not above `x`.
+fn at_most(x: f64) -> f32 {
+    -at_least(-x)
+}
+
+/// One flag a cell (`field.cells()`, x fastest): whether the transfer function is visible over its values, widened
+/// by [`ROUNDING`]. Holes are not interesting.
 pub fn interesting(field: &Field, transfer: &TransferFunction) -> Vec<bool> {
-    let [nx, ny, nz] = field.cells();
-    (0..nx * ny * nz).map(|i| {
-        let c = field.corners([i % nx, i / nx % ny, i / (nx * ny)]).map(|v| f64::from(field.values[v]));
-        let lo = c.iter().copied().fold(f64::INFINITY, f64::min);
-        let hi = c.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        transfer.visible(lo, hi)
-    }).collect()
+    let [nx, ny, nz] = field.dims();
+    let [cx, cy, cz] = field.cells();
+    let support = Support::of(transfer);
+    let mut flags = vec![false; cx * cy * cz];
+    flags.par_chunks_mut(cx * cy).enumerate().for_each(|(z, slab)| {
+        let mut low = vec![0.0; nx];
+        let mut high = vec![0.0; nx];
+        let row = |y: usize, z: usize| &field.values[(z * ny + y) * nx..][..nx];
+        for (y, flags) in slab.chunks_exact_mut(cx).enumerate() {
+            let (up, behind) = ((y + 1).min(ny - 1), (z + 1).min(nz - 1));
+            extremes([row(y, z), row(up, z), row(y, behind), row(up, behind)], &mut low, &mut high);
+            row_flags(&support, &low, &high, flags);
+        }
+    });
+    if let Some(holes) = &field.holes {
+        flags.par_iter_mut().zip(holes).for_each(|(flag, hole)| *flag &= !hole);
+    }
+    flags
+}
+
+/// Minimum and maximum of four rows, place by place.
+fn extremes(rows: [&[f32]; 4], low: &mut [f32], high: &mut [f32]) {
+    // Plain comparisons: values are finite, and what `f32::min` does about NaN would cost time.
+    let least = |a: f32, b: f32| if a < b { a } else { b };
+    let most = |a: f32, b: f32| if a > b { a } else { b };
+    let n = low.len();
+    let [a, b, c, d] = rows.map(|row| &row[..n]);
+    let high = &mut high[..n];
+    for x in 0..n {
+        low[x] = least(least(a[x], b[x]), least(c[x], d[x]));
+        high[x] = most(most(a[x], b[x]), most(c[x], d[x]));
+    }
+}
+
+/// Flags of a row of cells from the extremes of its columns of four voxels.
+fn row_flags(support: &Support, low: &[f32], high: &[f32], flags: &mut [bool]) {
+    let next = (low.len() - 1).min(1);
+    let (low_next, high_next) = (&low[next..], &high[next..]);
+    let cells = flags.iter_mut().zip(low.iter().zip(low_next).zip(high.iter().zip(high_next)));
+    let range = |((l0, l1), (h0, h1)): ((&f32, &f32), (&f32, &f32))| {
+        widened(if l0 < l1 { *l0 } else { *l1 }, if h0 > h1 { *h0 } else { *h1 })
+    };
+    if let [[from, to]] = support.0[..] {
+        // The usual case, without branches.
+        cells.for_each(|(flag, columns)| {
+            let [low, high] = range(columns);
+            *flag = (low <= to) & (high >= from);
+        });
+    } else {
+        cells.for_each(|(flag, columns)| {
+            let [low, high] = range(columns);
+            *flag = support.meets(low, high);
+        });
+    }
 }

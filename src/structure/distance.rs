@@ -1,21 +1,248 @@
-use crate::scene::{Field, TransferFunction};
-#[derive(Clone, Debug)]
-pub struct DistanceField { pub cells: [usize; 3], pub distances: Vec<u8> }
-pub fn omni(cells: [usize; 3], spacing: glam::DVec3, interesting: &[bool]) -> DistanceField {
-    let [nx, ny, _] = cells;
-    let at = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)];
-    let set: Vec<[usize; 3]> = (0..interesting.len()).filter(|&i| interesting[i]).map(at).collect();
-    use rayon::prelude::*;
-    let distances = (0..interesting.len()).into_par_iter().map(|i| {
-        let c = at(i);
-        set.iter().map(|s| { let mut d2 = 0.0; for a in 0..3 { let d = (s[a].abs_diff(c[a])).saturating_sub(1) as f64 * spacing[a]; d2 += d * d; } d2 }).fold(f64::INFINITY, f64::min).sqrt().floor().min(255.0) as u8
-    }).collect();
+//! Distance from each cell to the nearest interesting one [Thesis §5.3]: what near-neighbor skipping jumps by.
+//!
+//! The distance is that between the *boxes* of two cells, floored to whole voxels of the finest spacing: a lower
+//! bound for the distance of any point of the one to any point of the other. Border cells reach out to the faces of
+//! the volume and so are larger than their boxes here, but only away from all cells beside them: their outer part is
+//! farther from any other cell than their box is, and the bound holds there too.
+//!
+//! The box distance between cells that are d apart on an axis is (|d| - 1) sides there, 0 for neighbours. So it is
+//! the plain distance between cell indices to the mask dilated by one cell in all 26 directions: a step towards the
+//! other cell on each axis where d is not 0 is what the best of the 27 dilated cells saves.
+//!
+//! The transform is separable: sums of squares are minimised axis by axis, first by two scans along x, then along y
+//! and z as the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled
+//! Functions, 2012, §2). Departures: (1) the dilation is done along each axis just before its transform; (2) distances
+//! of 255 and more are one and the same, so parabolas that high are left out; (3) what is kept between the axes is
+//! f32, exact for isotropic spacing (integers below 2^16) and else rounded down, which keeps the bound.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::scene::Field;
+
+/// A distance of at least so many voxels, or nothing interesting at all.
+pub const FAR: u8 = u8::MAX;
+
+/// Square of [`FAR`]: no sum of squares from here on needs to be known.
+const FAR_SQUARED: f64 = FAR as f64 * FAR as f64;
+
+/// Columns that are transformed together: a cache line of f32, so that each line is fetched once.
+const TILE: usize = 16;
+
+/// Whole voxels (of the finest spacing) that a ray may go from anywhere in a cell and not enter an interesting one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DistanceField {
+    /// Cells along x, y and z.
+    pub cells: [usize; 3],
+    /// One byte a cell, x fastest; 0 for interesting cells and those that touch one, [`FAR`] for that much or more.
+    pub distances: Vec<u8>,
+}
+
+impl DistanceField {
+    pub fn at(&self, [x, y, z]: [usize; 3]) -> u8 {
+        self.distances[(z * self.cells[1] + y) * self.cells[0] + x]
+    }
+}
+
+/// Sides of a cell in units of the finest spacing, exactly 1 where spacings are equal.
+pub fn cell_sides(field: &Field) -> DVec3 {
+    let spacing = DVec3::from_array(field.volume.spacing);
+    spacing / spacing.min_element()
+}
+
+/// Distances of all `cells` to the nearest that is `interesting` (one flag a cell, x fastest), for cells with the
+/// given `sides` in units of the finest spacing, each at least 1 ([`cell_sides`]). The bound is for exact positions:
+/// who steps along a ray in f32 owes it the rounding of the ray's own positions.
+///
+/// # Panics
+/// When there is not one flag a cell.
+pub fn omni(cells: [usize; 3], sides: DVec3, interesting: &[bool]) -> DistanceField {
+    let [nx, ny, nz] = cells;
+    assert_eq!(interesting.len(), nx * ny * nz, "one flag a cell");
+    let mut distances = vec![FAR; interesting.len()];
+    if !interesting.contains(&true) {
+        return DistanceField { cells, distances };
+    }
+
+    // Along x and y, slab by slab: squared distances within the slab.
+    let mut squares = vec![f32::INFINITY; interesting.len()];
+    squares.par_chunks_mut(nx * ny).zip(interesting.par_chunks(nx * ny)).for_each(|(squares, flags)| {
+        if !flags.contains(&true) {
+            return;
+        }
+        for (squares, flags) in squares.chunks_exact_mut(nx).zip(flags.chunks_exact(nx)) {
+            scan(sides.x, flags, squares);
+        }
+        let mut envelope = Envelope::new(ny, sides.y);
+        for x in (0..nx).step_by(TILE) {
+            let width = TILE.min(nx - x);
+            envelope.load(width, |y| &squares[y * nx + x..][..width]);
+            envelope.transform();
+            for (y, row) in squares.chunks_exact_mut(nx).enumerate() {
+                envelope.store(y, &mut row[x..][..width], round_down);
+            }
+        }
+    });
+
+    // Along z, for each y. Threads need slices of their own, so the result is in the order y, z, x first.
+    let mut turned = vec![FAR; interesting.len()];
+    turned.par_chunks_mut(nx * nz).enumerate().for_each(|(y, turned)| {
+        let mut envelope = Envelope::new(nz, sides.z);
+        for x in (0..nx).step_by(TILE) {
+            let width = TILE.min(nx - x);
+            envelope.load(width, |z| &squares[(z * ny + y) * nx + x..][..width]);
+            envelope.transform();
+            for (z, row) in turned.chunks_exact_mut(nx).enumerate() {
+                // The cast saturates: FAR and all above it become FAR.
+                envelope.store(z, &mut row[x..][..width], |square| square.sqrt() as u8);
+            }
+        }
+    });
+    distances.par_chunks_mut(nx * ny).enumerate().for_each(|(z, slab)| {
+        for (y, row) in slab.chunks_exact_mut(nx).enumerate() {
+            row.copy_from_slice(&turned[(y * nz + z) * nx..][..nx]);
+        }
+    });
     DistanceField { cells, distances }
 }
-pub fn build(field: &Field, transfer: &TransferFunction) -> DistanceField {
-    omni(field.cells(), field.voxel() / field.finest(), &super::cells::interesting(field, transfer))
+
+/// The largest f32 that is not above `x`.
+fn round_down(x: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
-impl DistanceField {
-    pub fn at(&self, [x, y, z]: [usize; 3]) -> u8 { self.distances[(z * self.cells[1] + y) * self.cells[0] + x] }
-    pub fn bytes(&self) -> u64 { self.distances.len() as u64 }
+
+/// Squared box distance to the nearest flag of a row, infinite where it is FAR or more.
+fn scan(side: f64, flags: &[bool], squares: &mut [f32]) {
+    // Between boxes, so one cell less than between indices; the row starts as if beyond reach.
+    let square = |cells: u32| {
+        let distance = f64::from(cells.saturating_sub(1)) * side;
+        if distance < f64::from(FAR) { round_down(distance * distance) } else { f32::INFINITY }
+    };
+    let out_of_reach = u32::from(FAR) + 1;
+    let mut since = out_of_reach;
+    for (flag, out) in flags.iter().zip(&mut *squares) {
+        since = if *flag { 0 } else { out_of_reach.min(since + 1) };
+        *out = square(since);
+    }
+    since = out_of_reach;
+    for (flag, out) in flags.iter().zip(squares).rev() {
+        since = if *flag { 0 } else { out_of_reach.min(since + 1) };
+        *out = out.min(square(since));
+    }
+}
+
+/// A tile of columns and the lower envelope of the parabolas that stand on one.
+struct Envelope {
+    length: usize,
+    /// Square of a cell's side along the column.
+    unit: f64,
+    /// The tile, column after column.
+    columns: Vec<f64>,
+    /// Parabolas of the envelope, in rising order: where the apex stands and how high, in units of `unit` that height
+    /// and the square of its place, and the place from which on this parabola is the lowest.
+    apex: Vec<usize>,
+    foot: Vec<f64>,
+    height: Vec<f64>,
+    from: Vec<f64>,
+    /// 1 / (2 d), for the meeting point of parabolas d apart.
+    half_inverse: Vec<f64>,
+}
+
+impl Envelope {
+    fn new(length: usize, side: f64) -> Self {
+        Self {
+            length,
+            unit: side * side,
+            columns: vec![0.0; length * TILE],
+            apex: vec![0; length],
+            foot: vec![0.0; length],
+            height: vec![0.0; length],
+            from: vec![0.0; length],
+            half_inverse: (0..length).map(|d| 0.5 / d as f64).collect(),
+        }
+    }
+
+    /// Takes a tile of `width` columns, given row by row.
+    fn load<'a>(&mut self, width: usize, row: impl Fn(usize) -> &'a [f32]) {
+        for i in 0..self.length {
+            for (column, value) in row(i)[..width].iter().enumerate() {
+                self.columns[column * self.length + i] = f64::from(*value);
+            }
+        }
+    }
+
+    /// Gives row `i` of the tile.
+    fn store<T>(&self, i: usize, row: &mut [T], convert: impl Fn(f64) -> T) {
+        for (column, out) in row.iter_mut().enumerate() {
+            *out = convert(self.columns[column * self.length + i]);
+        }
+    }
+
+    /// Every column: f(i) becomes the least of (max(|i - j| - 1, 0) side)^2 + f(j) over all j.
+    fn transform(&mut self) {
+        let mut columns = std::mem::take(&mut self.columns);
+        for column in columns.chunks_exact_mut(self.length) {
+            dilate(column);
+            self.lower(column);
+        }
+        self.columns = columns;
+    }
+
+    /// One column: f(i) becomes the least of ((i - j) side)^2 + f(j) over all j.
+    fn lower(&mut self, column: &mut [f64]) {
+        let mut count = 0;
+        for (i, &f) in column.iter().enumerate() {
+            if f >= FAR_SQUARED {
+                continue;
+            }
+            let place = i as f64;
+            let height = f / self.unit + place * place;
+            let mut from = f64::NEG_INFINITY;
+            while count > 0 {
+                let top = count - 1;
+                from = (height - self.height[top]) * self.half_inverse[i - self.apex[top]];
+                if from > self.from[top] {
+                    break;
+                }
+                // The new one is the lower from before the top one begins: the top one is never lowest.
+                count = top;
+            }
+            if count == 0 {
+                from = f64::NEG_INFINITY;
+            }
+            (self.apex[count], self.foot[count]) = (i, f);
+            (self.height[count], self.from[count]) = (height, from);
+            count += 1;
+        }
+        if count == 0 {
+            column.fill(f64::INFINITY);
+            return;
+        }
+        let mut begin = 0;
+        for k in 0..count {
+            let end = match self.from[..count].get(k + 1) {
+                Some(from) => (from.ceil().max(0.0) as usize).min(self.length),
+                None => self.length,
+            };
+            let foot = self.foot[k];
+            let first = begin as f64 - self.apex[k] as f64;
+            for (i, out) in column[begin..end].iter_mut().enumerate() {
+                let along = first + i as f64;
+                *out = along * along * self.unit + foot;
+            }
+            begin = end;
+        }
+    }
+}
+
+/// The least of each value and its two neighbours.
+fn dilate(column: &mut [f64]) {
+    let mut before = f64::INFINITY;
+    for i in 0..column.len() {
+        let here = column[i];
+        let after = column.get(i + 1).copied().unwrap_or(f64::INFINITY);
+        column[i] = here.min(before).min(after);
+        before = here;
+    }
 }

@@ -1,0 +1,212 @@
+//! The emission-absorption integral along a ray, to near the limits of f64: the truth that every sampled picture
+//! approaches as its step goes to 0.
+//!
+//! C = integral of c(s) sigma(s) exp(-tau(s)) ds and opacity 1 - exp(-tau(L)), with
+//! sigma = -ln(1 - alpha) / reference length.
+//!
+//! It shares no sampling with the renderers and their twins. The ray is cut where the interpolant or the transfer
+//! function has a corner: at every plane of voxel centres, and inside a cell, where the scalar is a cubic of the ray
+//! parameter, at that cubic's turns and wherever it crosses a knot. A jump or a peak narrower than a cell is
+//! therefore met exactly. Between cuts everything is smooth:
+//!
+//! - constant scalar: closed form;
+//! - else Gauss-Legendre panels, halved until a panel and its two halves agree.
+//!
+//! Error control: a panel's halves are taken when they change it by at most [`TOLERANCE`] times its share of the
+//! ray, weighted by the transmittance in front of it, so the accepted changes of a ray add up to at most
+//! [`TOLERANCE`]. The error of the halves is far below that change (the rule is of order 12). Shares below
+//! [`LEAST_SHARE`] count as that much, since rounding would not let less be reached and since the short panels
+//! beside a pole of sigma have errors in proportion to their length; those are few. Colours are held to the same,
+//! relative to the brightest colour of the transfer function where that is above 1.
+//!
+//! Opacity 1: where it holds on a positive length, the ray ends there in that colour. Where it is reached at single
+//! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
+
+mod cubic;
+mod panel;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use self::cubic::Cubic;
+use self::panel::{Medium, Segment};
+use crate::math::ray::{ViewRays, box_interval};
+use crate::scene::{Field, TransferFunction};
+
+/// Error allowed to a ray, in opacity and in colour.
+pub const TOLERANCE: f64 = 1e-10;
+
+/// The least share of the tolerance that a panel is given.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
+const BLACK: f64 = 1e-17;
+
+/// Integrates rays through one field under one transfer function.
+pub struct ExactIntegrator<'a> {
+    field: &'a Field,
+    transfer: &'a TransferFunction,
+    /// Values of x at which the transfer function bends or jumps, rising.
+    levels: Vec<f64>,
+    /// The largest colour component, at least 1.
+    brightest: f64,
+}
+
+/// A ray in voxel centre coordinates: `origin + t * direction` counts voxels from the first centre (0) on, and t is
+/// in volume units.
+struct Line {
+    origin: DVec3,
+    direction: DVec3,
+}
+
+/// Light gathered so far, premultiplied, and what is left to pass.
+struct Light {
+    color: [f64; 3],
+    transmittance: f64,
+}
+
+impl<'a> ExactIntegrator<'a> {
+    pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
+        let mut levels: Vec<f64> = transfer.knots().iter().map(|k| k.x).collect();
+        levels.dedup();
+        let brightest = transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
+        Self { field, transfer, levels, brightest }
+    }
+
+    /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
+    /// `direction` has length 1. The field goes on outside the volume as it is on its faces. Transparent black for
+    /// a `length` that is not positive.
+    pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        let voxel = self.field.voxel();
+        let line = Line { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
+        let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
+        for pair in self.plane_cuts(&line, length).windows(2) {
+            if light.transmittance * self.brightest < BLACK {
+                break;
+            }
+            if pair[0] < pair[1] {
+                self.cell(&line, pair[0], pair[1], length, &mut light);
+            }
+        }
+        let [r, g, b] = light.color;
+        [r, g, b, 1.0 - light.transmittance]
+    }
+
+    /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to
+    /// where it leaves it, without early termination.
+    pub fn picture(&self, rays: &ViewRays, size: [u32; 2]) -> Vec<[f64; 4]> {
+        let half = 0.5 * self.field.extent();
+        (0..size[1])
+            .into_par_iter()
+            .flat_map_iter(|row| {
+                (0..size[0]).map(move |column| {
+                    let direction = rays.direction(column, row);
+                    let Some((enter, leave)) = box_interval(rays.eye, direction, half, rays.near) else {
+                        return [0.0; 4];
+                    };
+                    // Along a view's ray the parameter is depth; lengths are longer by the direction's own.
+                    let stretch = direction.length();
+                    self.ray(rays.eye + enter * direction, direction / stretch, (leave - enter) * stretch)
+                })
+            })
+            .collect()
+    }
+
+    /// 0, the parameters at which the line meets a plane of voxel centres, and `length`, rising.
+    fn plane_cuts(&self, line: &Line, length: f64) -> Vec<f64> {
+        let mut cuts = Vec::new();
+        if !(length > 0.0 && length.is_finite()) {
+            return cuts;
+        }
+        cuts.extend([0.0, length]);
+        for axis in 0..3 {
+            let (origin, direction) = (line.origin[axis], line.direction[axis]);
+            let last = (self.field.dims()[axis] - 1) as f64;
+            if direction == 0.0 || last == 0.0 {
+                continue;
+            }
+            let end = origin + direction * length;
+            let first = origin.min(end).ceil().clamp(0.0, last) as usize;
+            let past = origin.max(end).floor().clamp(0.0, last) as usize;
+            let planes = (first..=past).map(|plane| (plane as f64 - origin) / direction);
+            cuts.extend(planes.filter(|t| *t > 0.0 && *t < length));
+        }
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts
+    }
+
+    /// Adds the part [a, b] of the line, which lies inside one cell or beyond the outermost voxel centres.
+    fn cell(&self, line: &Line, a: f64, b: f64, length: f64, light: &mut Light) {
+        let dims = self.field.dims();
+        let middle = line.origin + 0.5 * (a + b) * line.direction;
+        let mut low = [0; 3];
+        let (mut start, mut rise) = ([0.0; 3], [0.0; 3]);
+        for axis in 0..3 {
+            let last = dims[axis] - 1;
+            let below = middle[axis].floor();
+            low[axis] = below.clamp(0.0, last as f64) as usize;
+            // Beyond the outermost centres the field is clamped: it doesn't change along this axis.
+            if below >= 0.0 && low[axis] < last {
+                start[axis] = line.origin[axis] + a * line.direction[axis] - below;
+                rise[axis] = (b - a) * line.direction[axis];
+            }
+        }
+        if let Some(holes) = &self.field.holes {
+            let cells = self.field.cells();
+            let [x, y, z] = std::array::from_fn(|axis| low[axis].min(cells[axis] - 1));
+            if holes[(z * cells[1] + y) * cells[0] + x] {
+                return;
+            }
+        }
+        let corners: [f64; 8] = std::array::from_fn(|corner| {
+            let at = |axis: usize| (low[axis] + (corner >> axis & 1)).min(dims[axis] - 1);
+            f64::from(self.field.values[(at(2) * dims[1] + at(1)) * dims[0] + at(0)])
+        });
+        let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if self.transfer.visible(least, most) {
+            self.pieces(&Cubic::of_cell(corners, start, rise), b - a, length, light);
+        }
+    }
+
+    /// Adds a part of the ray of `extent` volume units, of which `x` gives the scalar for s from 0 to 1.
+    fn pieces(&self, x: &Cubic, extent: f64, length: f64, light: &mut Light) {
+        let mut cuts = Vec::new();
+        x.cut(&self.levels, &mut cuts);
+        for (a, b) in cuts.windows(2).map(|c| (c[0], c[1])).filter(|(a, b)| a < b) {
+            let middle = x.at(0.5 * (a + b));
+            let segment = match x.is_constant() {
+                true => Segment::at(self.transfer, middle),
+                false => Segment::around(self.transfer, middle),
+            };
+            if segment.is_invisible() {
+                continue;
+            }
+            let begin = segment.color(x.at(a));
+            if segment.is_opaque() {
+                light.add(begin, 1.0, [0.0; 3], 0.0);
+                return;
+            }
+            let slope = segment.color_slope();
+            let medium = Medium {
+                x,
+                segment: &segment,
+                scale: extent / (self.transfer.reference * self.field.finest()),
+                share: extent / length,
+                steepest: slope.iter().fold(0.0, |most: f64, c| most.max(c.abs())) / self.brightest,
+            };
+            let stretch = medium.stretch(a, b, light.transmittance);
+            light.add(begin, stretch.opacity(), slope, stretch.rise);
+        }
+    }
+}
+
+impl Light {
+    /// A stretch that begins in the colour `begin`, behind all that came before.
+    fn add(&mut self, begin: [f64; 3], opacity: f64, slope: [f64; 3], rise: f64) {
+        for (c, color) in self.color.iter_mut().enumerate() {
+            *color += self.transmittance * (begin[c] * opacity + slope[c] * rise);
+        }
+        self.transmittance *= 1.0 - opacity;
+    }
+}
