@@ -122,7 +122,7 @@ mod numbers {
     fn are_written_for_readers() {
         assert_eq!([0, 999, 1000, 299_356, 9_891_936].map(thousands), ["0", "999", "1,000", "299,356", "9,891,936"]);
         assert_eq!(thousands(u64::MAX), "18,446,744,073,709,551,615");
-        assert_eq!([0.1234, 12.345, 741.26].map(milliseconds), ["0.123", "12.35", "741.3"]);
+        assert_eq!([0.1234, 12.347, 741.26].map(milliseconds), ["0.12", "12.35", "741.26"]);
         assert_eq!((percent(1, 4), percent(1, 0)), (Some(25.0), None));
     }
 }
@@ -425,7 +425,7 @@ mod plots {
             assert!(fragments.contains(text), "{text}");
         }
         let times = times_svg(group).unwrap().unwrap();
-        for text in ["device time of a frame / ms", "nn-omni, bounds + copy", "setup", "intermediate", "6.000"] {
+        for text in ["device time of a frame / ms", "nn-omni, bounds + copy", "setup", "intermediate", "6.00"] {
             assert!(times.contains(text), "{text}");
         }
         assert!(!times.contains("cpu"), "a run without device time stands among device times");
