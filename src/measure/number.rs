@@ -13,13 +13,9 @@ pub fn thousands(count: u64) -> String {
     out
 }
 
-/// Milliseconds to the microsecond below ten, to four digits above: a timer on a busy machine has no more to say.
+/// Milliseconds to the hundredth: as fine as a median of frames means anything, and points stand below points.
 pub fn milliseconds(ms: f64) -> String {
-    match ms.abs() {
-        x if x < 10.0 => format!("{ms:.3}"),
-        x if x < 100.0 => format!("{ms:.2}"),
-        _ => format!("{ms:.1}"),
-    }
+    format!("{ms:.2}")
 }
 
 /// A part of a whole as a percentage; `None` where the whole is 0.

@@ -25,7 +25,7 @@ pub enum Format {
     Png,
     /// OpenEXR, 32-bit float RGBA as it is.
     Exr,
-    /// NumPy, float32 [height][width][4] as it is.
+    /// NumPy, float32 `[height][width][4]` as it is.
     Npy,
 }
 

@@ -12,7 +12,12 @@ pub fn table(runs: &[Run]) -> String {
 
 fn group_table(group: &Group) -> String {
     let grid = Grid::of(group);
-    let rows: Vec<Vec<String>> = grid.rows.iter().map(|row| row.iter().map(cell_text).collect()).collect();
+    // Where a cell of a column of numbers has a mark, the others leave room for it: digits stay below digits.
+    let room: Vec<usize> = (0..COLUMNS.len())
+        .map(|c| if COLUMNS[c].right { grid.rows.iter().map(|row| mark(&row[c]).len()).max().unwrap_or(0) } else { 0 })
+        .collect();
+    let text = |(cell, room): (&Cell, &usize)| format!("{}{:<room$}", cell.text, mark(cell));
+    let rows: Vec<Vec<String>> = grid.rows.iter().map(|row| row.iter().zip(&room).map(text).collect()).collect();
     let width = |c: usize| {
         let head = COLUMNS[c].head.iter().map(|h| h.len());
         head.chain(rows.iter().map(|row| row[c].chars().count())).max().unwrap_or(0)
@@ -42,9 +47,7 @@ fn group_table(group: &Group) -> String {
     out
 }
 
-fn cell_text(cell: &Cell) -> String {
-    match cell.note {
-        Some(note) => format!("{} ({})", cell.text, note_mark(note)),
-        None => cell.text.clone(),
-    }
+/// ` (a)`, or nothing.
+fn mark(cell: &Cell) -> String {
+    cell.note.map(|note| format!(" ({})", note_mark(note))).unwrap_or_default()
 }

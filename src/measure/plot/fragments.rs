@@ -13,6 +13,8 @@ use crate::measure::record::Run;
 
 const HEIGHT: u32 = 640;
 const LEGEND_LINE: i32 = 22;
+/// Radius of a mark.
+const MARK: i32 = 4;
 
 struct Series<'a> {
     label: String,
@@ -111,17 +113,20 @@ fn panel<'a>(area: &Area<'a>, title: &str, series: &[Series], kind: usize) -> Dr
         .y_desc("fragments in the pass")
         .axis_desc_style(ink(FONT_SIZE))
         .draw()?;
-    let radius = if passes > 40 { 2 } else { 3 };
+    let points = |s: &Series| -> Vec<(f64, f64)> {
+        s.counts[kind].iter().enumerate().map(|(pass, count)| (pass as f64, decade(*count))).collect()
+    };
     for (i, s) in series.iter().enumerate() {
-        let points: Vec<(f64, f64)> = s.counts[kind].iter().enumerate().map(|(p, c)| (p as f64, decade(*c))).collect();
-        let style = color(i).stroke_width(line_width(i, series.len()));
-        let pixels: Vec<(i32, i32)> = points.iter().map(|p| chart.backend_coord(p)).collect();
-        chart.draw_series(LineSeries::new(points, style))?;
-        // Marks in pixels of the whole drawing: their shape does not follow the axes.
-        let whole = area.strip_coord_spec();
-        let (left, upper) = whole.get_base_pixel();
-        for (x, y) in pixels {
-            mark(&whole, (x - left, y - upper), i, radius)?;
+        chart.draw_series(LineSeries::new(points(s), color(i).stroke_width(2)))?;
+    }
+    // Marks after all lines, so that none is hidden; in pixels, so that their shape does not follow the axes.
+    let pixels = area.strip_coord_spec();
+    let (left, upper) = pixels.get_base_pixel();
+    let every = mark_every(passes, series.len());
+    for (i, s) in series.iter().enumerate() {
+        for point in points(s).iter().skip(i % every).step_by(every) {
+            let (x, y) = chart.backend_coord(point);
+            mark(&pixels, (x - left, y - upper), i, MARK)?;
         }
     }
     if bottom == 0.0 && counts().any(|c| c == 0) {
@@ -132,9 +137,10 @@ fn panel<'a>(area: &Area<'a>, title: &str, series: &[Series], kind: usize) -> Dr
     Ok(())
 }
 
-/// A line drawn earlier is wider, so that it still shows under one that lies on it.
-fn line_width(i: usize, n: usize) -> u32 {
-    2 + (n - 1 - i).min(4) as u32
+/// Where there are passes enough, the lines take turns in marking a pass: the marks of all of them show where they lie
+/// on each other.
+fn mark_every(passes: usize, lines: usize) -> usize {
+    if passes >= 3 * lines { lines.max(passes / 60) } else { 1 }
 }
 
 /// At most some twelve passes get a number.
@@ -147,8 +153,8 @@ fn legend<'a>(area: &Area<'a>, series: &[Series]) -> Drawn<'a> {
     area.draw(&Text::new("method", (8, 40), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
     for (i, s) in series.iter().enumerate() {
         let y = 66 + LEGEND_LINE * i as i32;
-        area.draw(&PathElement::new([(8, y), (36, y)], color(i).stroke_width(3)))?;
-        mark(area, (22, y), i, 4)?;
+        area.draw(&PathElement::new([(8, y), (36, y)], color(i).stroke_width(2)))?;
+        mark(area, (22, y), i, MARK)?;
         area.draw(&Text::new(s.label.clone(), (44, y), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
     }
     Ok(())

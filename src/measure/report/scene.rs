@@ -20,8 +20,9 @@ pub fn section(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()
         page.plot(
             &svg,
             &format!("Fragments per pass, {}", group.first().scene),
-            "Fragments that passed all tests, pass by pass. Runs whose counts are the same in every pass under several \
-             forms of culling are one line; a wider line that shows under a narrower one has the same counts there.",
+            "Fragments that passed all tests, pass by pass. Forms of culling that give the same counts in every pass are \
+             one line. In long runs the lines take turns in marking a pass: marks of several colours on one line are \
+             methods with the same counts there.",
         );
     }
     if let Some(svg) = times_svg(group)? {
