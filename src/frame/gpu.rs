@@ -20,7 +20,7 @@ use crate::pass::{Draw, Group, Work};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Region, Scope, Timeline};
+use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Region, Scope};
 
 /// What a run measures, besides its wall and CPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,8 +71,7 @@ pub struct GpuFrame {
     timestamps: Option<QueryPool>,
     /// One 32-bit count for every time the rays left are counted.
     predicates: Option<Buffer>,
-    timeline: Timeline,
-    reached: u64,
+    step_names: Arc<[String]>,
     /// Where RES was left by the last run.
     accumulated_layout: vk::ImageLayout,
 }
@@ -108,7 +107,6 @@ impl GpuFrame {
             })
             .transpose()?;
         let timed = device.graphics.timestamp_valid_bits > 0;
-        device.set_step_names(compiled.steps.iter().map(|s| s.step.name.clone()).collect());
         Ok(Self {
             device: device.clone(),
             passes: plan.passes,
@@ -122,8 +120,7 @@ impl GpuFrame {
             },
             timestamps: if timed { Some(QueryPool::new(device, "times", Kind::Timestamp, 2 * steps)?) } else { None },
             predicates,
-            timeline: Timeline::new(device, "frame")?,
-            reached: 0,
+            step_names: compiled.steps.iter().map(|s| s.step.name.clone()).collect(),
             accumulated_layout: vk::ImageLayout::UNDEFINED,
             compiled,
         })
@@ -142,6 +139,7 @@ impl GpuFrame {
     /// What the driver reports; a lost device names the last step begun.
     pub fn run(&mut self, measure: Measure) -> Result<FrameRun> {
         let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        self.device.set_step_names(self.step_names.clone());
         let mut run = FrameRun::default();
         let mut done = 0;
         for batch in self.batches() {
@@ -195,10 +193,9 @@ impl GpuFrame {
             }
         }
         let recorded = commands.finish()?;
-        self.reached += 1;
-        self.device.graphics.submit(&[&recorded], &[], &[(&self.timeline, self.reached)])?;
+        let submitted = self.device.graphics.submit(&recorded, &[])?;
         let ms = begin.elapsed().as_secs_f64() * 1e3;
-        self.timeline.wait(self.reached)?;
+        submitted.wait()?;
         Ok(ms)
     }
 

@@ -12,7 +12,7 @@ use crate::pass::{Work, block_range};
 use crate::scene::Field;
 use crate::vulkan::{
     Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Region, Resource as Bound,
-    Sampler, Scope, Shader, Timeline,
+    Sampler, Scope, Shader,
 };
 
 const COPY_READ: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
@@ -48,10 +48,7 @@ pub fn image(device: &Arc<Device>, image: &Image, texels: &[u8]) -> Result<()> {
 }
 
 fn finish(device: &Arc<Device>, commands: Commands) -> Result<()> {
-    let recorded = commands.finish()?;
-    let done = Timeline::new(device, "upload")?;
-    device.graphics.submit(&[&recorded], &[], &[(&done, 1)])?;
-    done.wait(1)
+    device.graphics.submit(&commands.finish()?, &[])?.wait()
 }
 
 /// Minimum and maximum of every block, by the compute queue: the graphics queue hands the volume over and takes
@@ -73,14 +70,11 @@ pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ra
     let set = DescriptorSet::new(device, &step.name, &pipeline.layout, &bound)?;
     let begin = ProcessTime::now();
     let (graphics, compute) = (&device.graphics, &device.compute);
-    let handed_over = Timeline::new(device, "volume handed over")?;
-    let built = Timeline::new(device, "block_range built")?;
-    let taken_back = Timeline::new(device, "block_range taken back")?;
 
     let mut give = Commands::begin(device, graphics, "volume to compute")?;
     give.image_release(volume, scope(Usage::Sampled), read, read, compute);
     let give = give.finish()?;
-    graphics.submit(&[&give], &[], &[(&handed_over, 1)])?;
+    let given = graphics.submit(&give, &[])?;
 
     let mut build = Commands::begin(device, compute, &step.name)?;
     build.label_begin(&step.name);
@@ -91,14 +85,13 @@ pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ra
     build.buffer_release(ranges, scope(Usage::ComputeWrite), graphics);
     build.label_end();
     let build = build.finish()?;
-    compute.submit(&[&build], &[(&handed_over, 1)], &[(&built, 1)])?;
+    let built = compute.submit(&build, &[&given])?;
 
     let mut take = Commands::begin(device, graphics, "block_range to graphics")?;
     take.image_acquire(volume, scope(Usage::Sampled), read, read, compute);
     take.buffer_acquire(ranges, scope(Usage::Sampled), compute);
     let take = take.finish()?;
-    graphics.submit(&[&take], &[(&built, 1)], &[(&taken_back, 1)])?;
-    taken_back.wait(1)?;
+    graphics.submit(&take, &[&built])?.wait()?;
     Ok(begin.elapsed().as_secs_f64() * 1e3)
 }
 

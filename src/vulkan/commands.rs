@@ -14,7 +14,7 @@ use super::layout::Layout;
 use super::owned::{Kept, Owned};
 use super::pipeline::{ComputePipeline, GraphicsPipeline};
 use super::query::{Kind, QueryPool};
-use super::queue::{Queue, wait};
+use super::queue::{Queue, Submission};
 use super::render_pass::{Framebuffer, RenderPass};
 use crate::error::{Error, Result};
 
@@ -367,8 +367,7 @@ pub struct Recorded {
     device: Arc<Device>,
     raw: vk::CommandBuffer,
     family: u32,
-    /// What the queue's semaphore reaches when the last submission has ended.
-    last: Mutex<Option<(vk::Semaphore, u64)>>,
+    last: Mutex<Option<Submission>>,
     _kept: Vec<Kept>,
 }
 
@@ -379,8 +378,8 @@ impl Recorded {
 
     /// Waits until its last submission has ended.
     pub fn wait(&self) -> Result<()> {
-        let last = *self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        last.map_or(Ok(()), |(semaphore, value)| wait(&self.device, &self.name, semaphore, value))
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        last.map_or(Ok(()), |submission| submission.wait())
     }
 
     pub(super) fn device(&self) -> &Arc<Device> {
@@ -395,8 +394,8 @@ impl Recorded {
         self.family
     }
 
-    pub(super) fn submitted(&self, semaphore: vk::Semaphore, value: u64) {
-        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some((semaphore, value));
+    pub(super) fn submitted(&self, submission: &Submission) {
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(submission.clone());
     }
 }
 

@@ -120,8 +120,10 @@ impl Device {
         });
         device.name(device.raw.handle(), &info.name);
         device.name(device.graphics.raw(), "graphics queue");
+        device.name(device.graphics.timeline(), "graphics queue");
         if device.separate_compute() {
             device.name(device.compute.raw(), "compute queue");
+            device.name(device.compute.timeline(), "compute queue");
         }
         device.name(device.marks.buffer, "step marks");
         Ok(device)
@@ -145,7 +147,7 @@ impl Device {
     }
 
     /// The names of the steps that [`Commands::step`](super::Commands::step) counts, for the error of a lost device.
-    pub fn set_step_names(&self, names: Vec<String>) {
+    pub fn set_step_names(&self, names: Arc<[String]>) {
         self.marks.set_names(names);
     }
 

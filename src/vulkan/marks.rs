@@ -1,6 +1,6 @@
 //! The number of the step that last began on each queue, in memory the host can read after a device is lost.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -18,7 +18,7 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Marks {
     pub buffer: vk::Buffer,
     allocation: Mutex<Allocation>,
-    names: Mutex<Vec<String>>,
+    names: Mutex<Arc<[String]>>,
 }
 
 impl Marks {
@@ -47,7 +47,9 @@ impl Marks {
                     }
                 });
             match bound {
-                Ok(allocation) => Ok(Self { buffer, allocation: Mutex::new(allocation), names: Mutex::default() }),
+                Ok(allocation) => {
+                    Ok(Self { buffer, allocation: Mutex::new(allocation), names: Mutex::new(Arc::new([])) })
+                }
                 Err(error) => {
                     raw.destroy_buffer(buffer, None);
                     Err(error)
@@ -56,7 +58,7 @@ impl Marks {
         }
     }
 
-    pub fn set_names(&self, names: Vec<String>) {
+    pub fn set_names(&self, names: Arc<[String]>) {
         *self.names.lock().unwrap_or_else(PoisonError::into_inner) = names;
     }
 

@@ -43,7 +43,7 @@ pub use layout::Layout;
 pub use pick::pick;
 pub use pipeline::{Blend, ComputePipeline, DepthState, GraphicsPipeline, GraphicsPipelineInfo};
 pub use query::{Kind, QueryPool};
-pub use queue::{Queue, Timeline};
+pub use queue::{Queue, Submission};
 pub use render_pass::{Attachment, Dependency, Framebuffer, RenderPass, RenderPassInfo, Role, Scope};
 pub use shader::{Binding, Shader};
 pub use suppressed::SUPPRESSED;
