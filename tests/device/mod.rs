@@ -1,0 +1,112 @@
+//! The harness of tests that need a Vulkan device: one device with the validation layer on for all tests of a file,
+//! one test at a time, any validation message fails the test that brought it. What a machine lacks (a device, a
+//! feature, `../shared/data`) makes a test *ignored*, with a line that says so: skipped is not passed.
+//!
+//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs these files once for each driver it knows.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use depthleap::vulkan::{Device, Instance, pick};
+use libtest_mimic::{Arguments, Failed, Trial};
+
+/// A test: its name, what it needs besides a device, and what it does.
+pub struct Test {
+    pub name: String,
+    pub needs: Vec<Need>,
+    pub run: Box<dyn FnOnce(&Arc<Device>) -> Result<(), Failed> + Send>,
+}
+
+/// What some machines lack.
+#[derive(Clone, Debug)]
+pub enum Need {
+    DepthBounds,
+    Conditional,
+    /// A file of `../shared/data`.
+    Data(&'static str),
+}
+
+/// A test that needs a device and nothing more.
+pub fn test(name: &str, run: impl FnOnce(&Arc<Device>) + Send + 'static) -> Test {
+    let run = Box::new(move |device: &Arc<Device>| {
+        run(device);
+        Ok(())
+    });
+    Test { name: name.to_owned(), needs: Vec::new(), run }
+}
+
+impl Test {
+    pub fn needs(mut self, need: Need) -> Self {
+        self.needs.push(need);
+        self
+    }
+}
+
+/// A file of `../shared/data`, beside the checkout.
+pub fn data(file: &str) -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(file)
+}
+
+/// The device under test, with validation.
+pub fn open(single_queue: bool) -> depthleap::Result<Arc<Device>> {
+    let instance = Instance::new(true)?;
+    let (info, _) = pick(&instance.devices()?, None)?;
+    Device::new(&instance, &info, single_queue)
+}
+
+/// Runs the tests of a file; its `main`.
+pub fn run(tests: Vec<Test>) -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    // CPU drivers take all cores for one frame, and messages belong to the test that runs.
+    arguments.test_threads = Some(1);
+    let device = open(false);
+    match &device {
+        Ok(device) => {
+            let info = &device.info;
+            eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
+        }
+        Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this file is skipped: {error}"),
+    }
+    let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok())).collect();
+    let conclusion = libtest_mimic::run(&arguments, trials);
+    if conclusion.num_ignored > 0 {
+        eprintln!("{} test(s) SKIPPED, for the reasons above", conclusion.num_ignored);
+    }
+    conclusion.exit_code()
+}
+
+fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
+    let Test { name, needs, run } = test;
+    let missing = match device {
+        None => Some("a device".to_owned()),
+        Some(device) => needs.iter().find_map(|need| lacks(need, device)),
+    };
+    let Some(device) = device.filter(|_| missing.is_none()).cloned() else {
+        let missing = missing.unwrap_or_default();
+        eprintln!("SKIPPED: {name} needs {missing}");
+        return Trial::test(name, move || Err(Failed::from(format!("needs {missing}")))).with_ignored_flag(true);
+    };
+    Trial::test(name, move || {
+        let before = device.instance().messages().len();
+        let result = run(&device);
+        let messages = device.instance().messages();
+        match messages.get(before..) {
+            Some([]) | None => result,
+            Some(new) => Err(Failed::from(format!("validation says:\n{}", new.join("\n")))),
+        }
+    })
+}
+
+fn lacks(need: &Need, device: &Device) -> Option<String> {
+    match need {
+        Need::DepthBounds => (!device.info.depth_bounds).then(|| "a device with the depth bounds test".to_owned()),
+        Need::Conditional => {
+            (!device.info.conditional_rendering).then(|| "a driver with conditional rendering".to_owned())
+        }
+        Need::Data(file) => {
+            let path = data(file);
+            (!path.is_file()).then(|| format!("{}, which is not there", path.display()))
+        }
+    }
+}
