@@ -28,15 +28,17 @@ pub struct Frame {
     pub down: [[f32; 4]; 2],
     pub extent: [[f32; 4]; 2],
     pub inverse_extent: [[f32; 4]; 2],
+    pub voxel_step: [[f32; 4]; 2],
     pub dims: [f32; 4],
     pub near: f32,
-    pub step_length: f32,
     pub inverse_step: f32,
     pub offset: f32,
     pub termination: f32,
     pub exponent: f32,
     pub segment_voxels: f32,
     pub passes: u32,
+    /// Up to a multiple of 16 bytes, the alignment of the block.
+    pub unused: u32,
 }
 
 impl Frame {
@@ -51,15 +53,16 @@ impl Frame {
             down: double_floats(rays.down),
             extent: double_floats(scene.field.extent()),
             inverse_extent: double_floats(1.0 / scene.field.extent()),
+            voxel_step: double_floats(step / scene.field.voxel()),
             dims: [dims[0], dims[1], dims[2], 0.0],
             near: rays.near as f32,
-            step_length: step as f32,
             inverse_step: (1.0 / step) as f32,
             offset: sampling.offset.steps() as f32,
             termination: sampling.termination as f32,
             exponent: (sampling.step / scene.transfer.reference) as f32,
             segment_voxels: (f64::from(sampling.samples_per_pass) * sampling.step) as f32,
             passes,
+            unused: 0,
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The harness of tests that need a Vulkan device: one device with the validation layer on for all tests of a file,
+//! The harness of tests that need a Vulkan device: one device with the validation layer on for all tests,
 //! one test at a time, any validation message fails the test that brought it. What a machine lacks (a device, a
 //! feature, `../shared/data`) makes a test *ignored*, with a line that says so: skipped is not passed.
 //!
-//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs these files once for each driver it knows.
+//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs this program once for each driver it knows.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -13,15 +13,14 @@ use libtest_mimic::{Arguments, Failed, Trial};
 
 /// A test: its name, what it needs besides a device, and what it does.
 pub struct Test {
-    pub name: String,
-    pub needs: Vec<Need>,
-    pub run: Box<dyn FnOnce(&Arc<Device>) -> Result<(), Failed> + Send>,
+    name: String,
+    needs: Vec<Need>,
+    run: Box<dyn FnOnce(&Arc<Device>) + Send>,
 }
 
 /// What some machines lack.
 #[derive(Clone, Debug)]
 pub enum Need {
-    DepthBounds,
     Conditional,
     /// A file of `../shared/data`.
     Data(&'static str),
@@ -29,14 +28,15 @@ pub enum Need {
 
 /// A test that needs a device and nothing more.
 pub fn test(name: &str, run: impl FnOnce(&Arc<Device>) + Send + 'static) -> Test {
-    let run = Box::new(move |device: &Arc<Device>| {
-        run(device);
-        Ok(())
-    });
-    Test { name: name.to_owned(), needs: Vec::new(), run }
+    Test { name: name.to_owned(), needs: Vec::new(), run: Box::new(run) }
 }
 
 impl Test {
+    /// The test as `module::name`.
+    pub fn within(self, module: &str) -> Self {
+        Self { name: format!("{module}::{}", self.name), ..self }
+    }
+
     pub fn needs(mut self, need: Need) -> Self {
         self.needs.push(need);
         self
@@ -55,7 +55,10 @@ pub fn open(single_queue: bool) -> depthleap::Result<Arc<Device>> {
     Device::new(&instance, &info, single_queue)
 }
 
-/// Runs the tests of a file; its `main`.
+/// Messages of a test that are printed.
+const MESSAGES: usize = 3;
+
+/// Runs the tests.
 pub fn run(tests: Vec<Test>) -> ExitCode {
     let mut arguments = Arguments::from_args();
     // CPU drivers take all cores for one frame, and messages belong to the test that runs.
@@ -66,7 +69,7 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
             let info = &device.info;
             eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
         }
-        Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this file is skipped: {error}"),
+        Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }
     let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok())).collect();
     let conclusion = libtest_mimic::run(&arguments, trials);
@@ -89,18 +92,20 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
     };
     Trial::test(name, move || {
         let before = device.instance().messages().len();
-        let result = run(&device);
+        run(&device);
         let messages = device.instance().messages();
         match messages.get(before..) {
-            Some([]) | None => result,
-            Some(new) => Err(Failed::from(format!("validation says:\n{}", new.join("\n")))),
+            Some([]) | None => Ok(()),
+            Some(new) => {
+                let first = new[..new.len().min(MESSAGES)].join("\n");
+                Err(Failed::from(format!("validation says, {} times:\n{first}", new.len())))
+            }
         }
     })
 }
 
 fn lacks(need: &Need, device: &Device) -> Option<String> {
     match need {
-        Need::DepthBounds => (!device.info.depth_bounds).then(|| "a device with the depth bounds test".to_owned()),
         Need::Conditional => {
             (!device.info.conditional_rendering).then(|| "a driver with conditional rendering".to_owned())
         }
