@@ -9,10 +9,16 @@ use depthleap::vulkan::Shader;
 #[allow(dead_code)]
 mod compile;
 
-/// The shader in `tests/FILE`; what it includes is looked for in `glsl/`.
-pub fn shader(file: &str) -> Shader {
-    let module = compile::Module { name: file.to_owned(), file: format!("../tests/{file}"), macros: Vec::new() };
-    let compiled = compile::compile(Path::new("glsl"), &module).unwrap_or_else(|broken| panic!("{broken}"));
-    assert_eq!(compiled.warnings, "", "{file}");
-    Shader::new(file, &compiled.words).unwrap()
+/// A shader of `tests/`, named like those of `glsl/`: `vulkan/color.frag`, `formulas/section.comp:any`. What it
+/// includes is looked for in `glsl/`.
+pub fn shader(name: &str) -> Shader {
+    let root = Path::new("glsl");
+    let (file, wanted) = (name.split(':').next().unwrap_or(name), format!("../tests/{name}"));
+    let made = compile::variants(root, &format!("../tests/{file}")).and_then(|modules| {
+        let module = modules.iter().find(|module| module.name == wanted);
+        compile::compile(root, module.unwrap_or_else(|| panic!("there is no variant {name}")))
+    });
+    let compiled = made.unwrap_or_else(|broken| panic!("{broken}"));
+    assert_eq!(compiled.warnings, "", "{name}");
+    Shader::new(name, &compiled.words).unwrap()
 }

@@ -1,0 +1,16 @@
+// A compute shader has no fragment: its pixel is the place of its invocation in rows of 64.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "../tests/formulas/arguments.glsl"
+
+#define gl_FragCoord vec4(vec2(gl_GlobalInvocationID.x % 64, gl_GlobalInvocationID.x / 64) + 0.5, 0.0, 1.0)
+#include "shared/frame.glsl"
+#include "shared/samples.glsl"
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    Ray ray = load_ray();
+    results.values[2 * i] = vec4(ray.steps, float(ray.samples), 0.0, 0.0);
+    results.values[2 * i + 1] = vec4(sample_position(ray, uint(arguments.values[i].x)), 0.0);
+}
