@@ -104,8 +104,9 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     if sampling.passes == 0 && passes > 0 {
         let diagonal = whole_diagonal(scene).div_ceil(sampling.samples_per_pass);
         if diagonal > passes {
+            let last = diagonal - 1;
             leave(
-                &format!("main passes {passes} to {}", diagonal - 1),
+                &if passes == last { format!("main pass {last}") } else { format!("main passes {passes} to {last}") },
                 format!("the longest ray of this view has {} samples", view.longest_samples),
             );
         }
@@ -149,7 +150,7 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
         leave("interpolation in the shader", "the texture unit interpolates".to_owned());
     }
     if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
-        leave("count of rays left", format!("there are no more than {} main passes", passes::BATCH));
+        leave("counting of rays", format!("there are no more than {} main passes", passes::BATCH));
     }
 }
 

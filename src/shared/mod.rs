@@ -37,8 +37,6 @@ pub struct Frame {
     pub exponent: f32,
     pub segment_voxels: f32,
     pub passes: u32,
-    /// Up to a multiple of 16 bytes, the alignment of the block.
-    pub unused: u32,
 }
 
 impl Frame {
@@ -62,7 +60,6 @@ impl Frame {
             exponent: (sampling.step / scene.transfer.reference) as f32,
             segment_voxels: (f64::from(sampling.samples_per_pass) * sampling.step) as f32,
             passes,
-            unused: 0,
         }
     }
 }

@@ -15,20 +15,39 @@ use libtest_mimic::{Arguments, Failed, Trial};
 pub struct Test {
     name: String,
     needs: Vec<Need>,
-    run: Box<dyn FnOnce(&Arc<Device>) + Send>,
+    run: Run,
 }
+
+type Run = Box<dyn FnOnce(&Arc<Device>) -> Result<(), Failed> + Send>;
 
 /// What some machines lack.
 #[derive(Clone, Debug)]
 pub enum Need {
+    DepthBounds,
     Conditional,
+    /// The depth bounds test missing: what is refused then.
+    NoDepthBounds,
+    /// Computing on queues of another family than drawing.
+    ComputeFamily,
     /// A file of `../shared/data`.
     Data(&'static str),
 }
 
+/// Tests that need a device and nothing more, each named after its function.
+macro_rules! tests {
+    ($($test:path),* $(,)?) => {
+        vec![$($crate::harness::test(stringify!($test).rsplit("::").next().unwrap_or_default(), $test)),*]
+    };
+}
+pub(crate) use tests;
+
 /// A test that needs a device and nothing more.
 pub fn test(name: &str, run: impl FnOnce(&Arc<Device>) + Send + 'static) -> Test {
-    Test { name: name.to_owned(), needs: Vec::new(), run: Box::new(run) }
+    let run = Box::new(move |device: &Arc<Device>| {
+        run(device);
+        Ok(())
+    });
+    Test { name: name.to_owned(), needs: Vec::new(), run }
 }
 
 impl Test {
@@ -58,6 +77,20 @@ pub fn open(single_queue: bool) -> depthleap::Result<Arc<Device>> {
 /// Messages of a test that are printed.
 const MESSAGES: usize = 3;
 
+/// Runs `test` and fails it when validation of its device said anything meanwhile.
+pub fn judged(device: &Arc<Device>, test: impl FnOnce(&Arc<Device>) -> Result<(), Failed>) -> Result<(), Failed> {
+    let before = device.instance().messages().len();
+    let result = test(device);
+    let messages = device.instance().messages();
+    match messages.get(before..) {
+        Some([]) | None => result,
+        Some(new) => {
+            let first = new[..new.len().min(MESSAGES)].join("\n");
+            Err(Failed::from(format!("validation says, {} times:\n{first}", new.len())))
+        }
+    }
+}
+
 /// Runs the tests.
 pub fn run(tests: Vec<Test>) -> ExitCode {
     let mut arguments = Arguments::from_args();
@@ -76,7 +109,21 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
     if conclusion.num_ignored > 0 {
         eprintln!("{} test(s) SKIPPED, for the reasons above", conclusion.num_ignored);
     }
-    conclusion.exit_code()
+    match device.map_or_else(|_| Vec::new(), closed) {
+        messages if messages.is_empty() => conclusion.exit_code(),
+        messages => {
+            eprintln!("FAILED: when the device was closed, validation says:\n{}", messages.join("\n"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What validation says when a device goes: about objects that are left, for one.
+pub fn closed(device: Arc<Device>) -> Vec<String> {
+    let instance = device.instance().clone();
+    let before = instance.messages().len();
+    drop(device);
+    instance.messages().split_off(before)
 }
 
 fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
@@ -90,25 +137,18 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
         eprintln!("SKIPPED: {name} needs {missing}");
         return Trial::test(name, move || Err(Failed::from(format!("needs {missing}")))).with_ignored_flag(true);
     };
-    Trial::test(name, move || {
-        let before = device.instance().messages().len();
-        run(&device);
-        let messages = device.instance().messages();
-        match messages.get(before..) {
-            Some([]) | None => Ok(()),
-            Some(new) => {
-                let first = new[..new.len().min(MESSAGES)].join("\n");
-                Err(Failed::from(format!("validation says, {} times:\n{first}", new.len())))
-            }
-        }
-    })
+    Trial::test(name, move || judged(&device, run))
 }
 
 fn lacks(need: &Need, device: &Device) -> Option<String> {
     match need {
+        Need::DepthBounds => (!device.info.depth_bounds).then(|| "a device with the depth bounds test".to_owned()),
         Need::Conditional => {
             (!device.info.conditional_rendering).then(|| "a driver with conditional rendering".to_owned())
         }
+        Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
+        Need::ComputeFamily => (device.compute.family == device.graphics.family)
+            .then(|| "a device that computes on queues of another family".to_owned()),
         Need::Data(file) => {
             let path = data(file);
             (!path.is_file()).then(|| format!("{}, which is not there", path.display()))

@@ -1,10 +1,13 @@
 //! Tests that need a Vulkan device, in one program with a harness of its own: one folder or file for each module.
 
+mod formulas;
 mod frame;
 mod harness;
+mod shader;
+mod vulkan;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    harness::run(frame::tests())
+    harness::run([formulas::tests(), vulkan::tests(), frame::tests()].into_iter().flatten().collect())
 }
