@@ -1,5 +1,6 @@
 //! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
 
+pub mod longest;
 mod passes;
 mod text;
 mod view;
