@@ -51,7 +51,9 @@ pub enum VolumeTexture {
     /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.
     #[default]
     Native,
+    /// 16 bits over the values there are.
     R16,
+    /// 32-bit float, exact.
     R32f,
 }
 
@@ -163,6 +165,7 @@ pub enum Offset {
     /// At its begin, as the papers do.
     #[default]
     Left,
+    /// In its middle.
     Midpoint,
 }
 
