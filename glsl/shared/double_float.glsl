@@ -1,6 +1,7 @@
 // Double-float arithmetic: a number is vec2(high, low), their unevaluated sum, about 48 significant bits.
 // Rays are set up in it once a pixel, so that sample positions are as good as an f32 can hold them.
-// Source: Dekker 1971, Knuth TAOCP vol. 2 (two-sum); products by fused multiply-add.
+// Source: Dekker 1971 (split, product), Knuth TAOCP vol. 2 (two-sum). Not by fma: some drivers, Mesa's lavapipe among
+// them, round its product, and the error that is asked for comes out 0.
 // `precise` keeps a compiler from simplifying the error terms away.
 
 vec2 two_sum(float a, float b) {
@@ -11,9 +12,21 @@ vec2 two_sum(float a, float b) {
     return vec2(sum, error);
 }
 
+// Two halves of at most 12 bits, whose products are exact.
+vec2 split(float a) {
+    const float SHIFT = 4097.0; // 2^12 + 1
+    precise float shifted = SHIFT * a;
+    precise float rest = shifted - a;
+    precise float high = shifted - rest;
+    precise float low = a - high;
+    return vec2(high, low);
+}
+
 vec2 two_product(float a, float b) {
+    vec2 p = split(a);
+    vec2 q = split(b);
     precise float product = a * b;
-    precise float error = fma(a, b, -product);
+    precise float error = ((p.x * q.x - product) + p.x * q.y + p.y * q.x) + p.y * q.y;
     return vec2(product, error);
 }
 
