@@ -36,13 +36,14 @@ const EXAMPLES: &str = "Examples:
   depthleap info                                         devices, and which --cull works";
 
 const NOTES: &str = "Input:
-  A SCENE is a TOML file; every option has its key there, an option given wins. A VOLUME is an NRRD file, a raw
-  file with --dims and --type, or builtin:NAME:SIZE. Without either the volume is builtin:shells:64.
+  A SCENE is a TOML file; every option has its key there, an option given wins. A VOLUME is an NRRD
+  file, a raw file with --dims and --type, or builtin:NAME:SIZE. Without either the volume is
+  builtin:shells:64.
 
 Output:
-  Files are written to a temporary name and renamed: they are there completely or not at all. Where a file is
-  asked for, - stands for standard output (a PNG; -.exr and -.npy name another format). Tables of `render` and
-  progress go to standard error, progress on a terminal only.
+  Files are written to a temporary name and renamed: they are there completely or not at all. Where
+  a file is asked for, - stands for standard output (a PNG; -.exr and -.npy name another format).
+  Tables of `render` and progress go to standard error, progress on a terminal only.
 
 Exit codes:
   0  done

@@ -125,16 +125,17 @@ impl<'a> Runner<'a> {
     fn plan(&self, method: &MethodSettings) -> Result<(Scene, Plan)> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
+        let plan = if method.name == MethodName::Cpu {
+            plan::plan(&scene, plan::papers_form(method.name))?
+        } else {
+            let checked = self.checked.ok_or_else(no_device)?;
+            let form = plan::form(&scene, checked.check.automatic(method.name))?;
+            refuse_missing(checked, form)?;
+            let plan = plan::plan(&scene, form)?;
+            limits::check_device(&checked.device.info, &scene, &plan)?;
+            plan
+        };
         limits::check_host(&scene)?;
-        if method.name == MethodName::Cpu {
-            let plan = plan::plan(&scene, plan::papers_form(method.name))?;
-            return Ok((scene, plan));
-        }
-        let checked = self.checked.ok_or_else(no_device)?;
-        let form = plan::form(&scene, checked.check.automatic(method.name))?;
-        refuse_missing(checked, form)?;
-        let plan = plan::plan(&scene, form)?;
-        limits::check_device(&checked.device.info, &scene, &plan)?;
         Ok((scene, plan))
     }
 

@@ -36,6 +36,9 @@ pub struct LeftOut {
 /// Main passes beyond this many are refused: each is recorded, counted and timed by itself.
 const MOST_PASSES: u32 = 65_536;
 
+/// Samples of a ray, those beyond its end included; their indices are 32-bit numbers in shaders.
+const MOST_SAMPLES: u64 = 1 << 31;
+
 /// What `auto` stands for where nothing is known of the device: cull and mark of the papers.
 pub fn papers_form(method: MethodName) -> Option<Form> {
     match method {
@@ -91,6 +94,14 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
             "take longer steps or more samples a pass",
         ));
     }
+    let samples = u64::from(passes) * u64::from(sampling.samples_per_pass);
+    if samples > MOST_SAMPLES {
+        return Err(Error::usage(
+            format!("--passes {passes} --samples-per-pass {}", sampling.samples_per_pass),
+            format!("this is {samples} samples a ray, and at most {MOST_SAMPLES} are possible"),
+            "take fewer passes or fewer samples a pass",
+        ));
+    }
     let mut left_out = Vec::new();
     let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
     let steps = if passes == 0 {
@@ -105,8 +116,9 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     if sampling.passes == 0 && passes > 0 {
         let diagonal = whole_diagonal(scene).div_ceil(sampling.samples_per_pass);
         if diagonal > passes {
+            let last = diagonal - 1;
             leave(
-                &format!("main passes {passes} to {}", diagonal - 1),
+                &if passes == last { format!("main pass {last}") } else { format!("main passes {passes} to {last}") },
                 format!("the longest ray of this view has {} samples", view.longest_samples),
             );
         }
