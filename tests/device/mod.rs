@@ -22,6 +22,8 @@ pub struct Test {
 #[derive(Clone, Debug)]
 pub enum Need {
     DepthBounds,
+    /// For what such a device has to refuse.
+    NoDepthBounds,
     Conditional,
     /// A file of `../shared/data`.
     Data(&'static str),
@@ -101,6 +103,7 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
 fn lacks(need: &Need, device: &Device) -> Option<String> {
     match need {
         Need::DepthBounds => (!device.info.depth_bounds).then(|| "a device with the depth bounds test".to_owned()),
+        Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
         Need::Conditional => {
             (!device.info.conditional_rendering).then(|| "a driver with conditional rendering".to_owned())
         }
