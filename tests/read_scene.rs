@@ -94,7 +94,13 @@ fn a_wrong_key_or_name_is_told_with_its_line_and_the_nearest() {
         ("[volumes]\nrange = [0, 1]", [", line 1: ", "unknown key `volumes`", "did you mean `volume`?"]),
         ("[method]\nname = \"nn-omin\"", [", line 2: ", "unknown name `nn-omin`", "did you mean `nn-omni`?"]),
         ("[image]\nzzz = 1", [", line 2: ", "unknown key `zzz`", "known are size, background, accumulate"]),
-        ("[sampling]\nstep = \"long\"", [", line 2: ", "string", "f64"]),
+        ("[sampling]\nstep = \"long\"", [", line 2: ", "string", "expected a number"]),
+        ("[sampling]\npasses = 0.5", [", line 2: ", "0.5", "expected a whole number"]),
+        ("[image]\nsize = [1, 2, 3]", [", line 2: ", "3 entries", "have to be 2"]),
+        ("[camera]\neye = [1, 2]", [", line 2: ", "2 entries", "have to be 3"]),
+        ("[volume]\nrange = [1]", [", line 2: ", "1 entries", "have to be 2"]),
+        ("[transfer]\npoints = [[0, 1, 1, 1, 0, 9]]", [", line 2: ", "6 entries", "have to be 5"]),
+        ("sampling = 1", [", line 1: ", "integer `1`", "the section [sampling]"]),
         ("[sampling]\nstep = 1\nstep = 2", [", line 3: ", "duplicate", ""]),
         ("[image]\nsize = [-1, 5]", [", line 2: ", "-1", ""]),
         ("\n\nwhat", [", line 3: ", "", ""]),
@@ -131,9 +137,9 @@ fn values_out_of_range_are_named_with_their_key() {
     refused(|s| s.image.size = [5, 65536], "image.size", "65536");
     refused(|s| s.image.background = [0.0, 2.0, 0.0], "image.background", "2.0");
     refused(|s| s.camera.fov_y = 180.0, "camera", "180");
-    refused(|s| s.transfer.reference = 0.0, "ramp", "reference length 0");
+    refused(|s| s.transfer.reference = 0.0, "transfer.reference", "is 0");
     refused(|s| s.transfer.preset = Some("ram".into()), "transfer.preset", "did you mean `ramp`?");
-    refused(|s| s.volume.range = Some([1.0, 0.0]), "builtin:shells:64", "[1, 0]");
+    refused(|s| s.volume.range = Some([1.0, 0.0]), "volume.range", "[1.0, 0.0]");
 }
 
 #[test]

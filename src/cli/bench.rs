@@ -4,15 +4,15 @@ use std::path::PathBuf;
 use std::time::SystemTime;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::open::DeviceOptions;
 use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
+use super::output::{Progress, settings_in};
 use crate::error::Result;
 use crate::frame::Verdict;
 use crate::measure::error::difference;
 use crate::measure::picture::Picture;
-use crate::measure::record::{FORMAT, Results};
+use crate::measure::record::{FORMAT, Results, Run};
 use crate::measure::report::Difference;
 use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
@@ -22,30 +22,33 @@ use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
 
 /// Every method on every scene: the main job
 ///
-/// Prints a table like the thesis' and writes report.html, results.json and results.csv.
+/// Prints a table like the thesis' and writes report.html, results.json and results.csv. A run is repeated with
+/// `depthleap render --from DIR/results.json#INDEX`. A `method` in a scene file names no method here, but its other keys
+/// count.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap bench -o out
   depthleap bench fuel.nrrd aneurism.nrrd --tf ramp -o out
-  depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out")]
+  depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out
+  depthleap render --from out/results.json#3 -o again.png")]
 pub struct Bench {
-    /// Scene files, volume files or builtin:NAME:SIZE [default: three built-in volumes]
-    #[arg(value_name = "SCENE|VOLUME")]
+    /// Scene files (.toml), volume files or builtin:NAME:SIZE
+    #[arg(value_name = "SCENE|VOLUME", default_values = BUILT_IN)]
     scenes: Vec<String>,
-    /// Folder for report.html, results.json and results.csv
+    /// Folder for report.html, results.json and results.csv; made where it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Render methods [default: rc,rc-ert,rc-block,nn-omni]
-    #[arg(long, value_delimiter = ',')]
+    /// Render methods, with commas between
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', default_values = BENCH_METHODS.map(MethodName::name))]
     method: Vec<MethodName>,
-    /// The form the options name (or `auto` finds), or every form the device has
-    #[arg(long, default_value = "one")]
+    /// Forms of culling and marking
+    #[arg(long, value_name = "WHICH", default_value = "one")]
     forms: Forms,
-    /// Frames timed for each method
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    /// Frames timed for each method; 0 counts only
+    #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true)]
     repeats: usize,
     /// Frames run before any is timed
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     warmups: usize,
     /// Leave out the f64 reference: no error and no lower bound
     #[arg(long)]
@@ -60,7 +63,9 @@ pub struct Bench {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum Forms {
+    /// The one that --cull and --mark name, or `auto` finds
     One,
+    /// Every one the device has, instead of --cull and --mark
     All,
 }
 
@@ -69,64 +74,64 @@ const BUILT_IN: [&str; 3] = ["builtin:shells:96", "builtin:jets:128", "builtin:b
 
 impl Bench {
     pub fn run(&self) -> Result<()> {
-        let names: Vec<&str> = match self.scenes.is_empty() {
-            true => BUILT_IN.to_vec(),
-            false => self.scenes.iter().map(String::as_str).collect(),
-        };
-        // Every scene is read before the first is run: a wrong name costs nobody minutes.
-        let mut scenes = Vec::new();
-        for name in names {
+        write::check_folder(&self.output)?;
+        let settings = |name: &String| -> Result<Settings> {
             let mut settings = self.scene_options.settings(Some(name))?;
             self.method_options.apply(&mut settings);
-            scenes.push(settings);
-        }
+            Ok(settings)
+        };
+        let scenes: Vec<Settings> = self.scenes.iter().map(settings).collect::<Result<_>>()?;
+        // Every scene is read and planned before the first is run: a wrong one costs nobody minutes.
+        let mut opened: Option<Checked> = None;
         for settings in &scenes {
-            read::scene(settings)?;
+            let scene = read::scene(settings)?;
+            if opened.is_none() && self.method.iter().any(|name| *name != MethodName::Cpu) {
+                opened = Some(self.device.open()?);
+            }
+            let runner = Runner::new(opened.as_ref(), scene, scene_name(settings));
+            runner.check(&self.variants(opened.as_ref(), settings))?;
         }
-        write::create_folder(&self.output)?;
-        let checked = self.device.open()?;
-        let progress = progress();
+        let progress = Progress::new();
         let effort = Effort { warmups: self.warmups, repeats: self.repeats, reference: !self.no_reference };
         let mut measured = Vec::new();
         for settings in &scenes {
-            let methods = self.methods(&checked, settings)?;
-            let mut runner = Runner::new(&checked, read::scene(settings)?, scene_name(settings));
-            measured.extend(runner.measure(&methods, effort, &|what| progress.set_message(what.to_owned()))?);
+            let methods = self.variants(opened.as_ref(), settings);
+            let mut runner = Runner::new(opened.as_ref(), read::scene(settings)?, scene_name(settings));
+            measured.extend(runner.measure(&methods, effort, &|what| progress.say(what))?);
         }
-        progress.finish_and_clear();
-        self.device.close(checked)?;
+        drop(progress);
+        opened.map_or(Ok(()), |checked| self.device.close(checked))?;
         self.write(measured)
     }
 
     /// The methods of one scene, in every form that is asked for.
-    fn methods(&self, checked: &Checked, settings: &Settings) -> Result<Vec<MethodSettings>> {
-        let names = if self.method.is_empty() { BENCH_METHODS.to_vec() } else { self.method.clone() };
-        let mut methods = Vec::new();
-        for name in names {
+    fn variants(&self, checked: Option<&Checked>, settings: &Settings) -> Vec<MethodSettings> {
+        let mut variants = Vec::new();
+        for &name in &self.method {
             let base = MethodSettings { name, ..settings.method.clone() };
-            if self.forms == Forms::All {
-                let forms = Form::all(name).into_iter().filter(|form| available(checked, *form));
-                let with = |form: Form| MethodSettings { cull: form.cull, mark: form.mark, ..base.clone() };
-                let before = methods.len();
-                methods.extend(forms.map(with));
-                if methods.len() > before {
-                    continue;
-                }
+            let forms = match self.forms {
+                Forms::One => Vec::new(),
+                Forms::All => Form::all(name).into_iter().filter(|form| available(checked, *form)).collect(),
+            };
+            variants.extend(forms.iter().map(|f| MethodSettings { cull: f.cull, mark: f.mark, ..base.clone() }));
+            if forms.is_empty() {
+                variants.push(base);
             }
-            methods.push(base);
         }
-        Ok(methods)
+        variants
     }
 
     fn write(&self, measured: Vec<Measured>) -> Result<()> {
         let mut runs = Vec::new();
+        write::create_folder(&self.output)?;
         let (mut pictures, mut differences): (Vec<(usize, Picture)>, Vec<Difference>) = (Vec::new(), Vec::new());
         for (i, one) in measured.into_iter().enumerate() {
             if let Some(reference) = &one.reference {
                 let gain = 100.0;
                 differences.push(Difference { run: i, gain, picture: difference(&one.picture, reference, gain)? });
             }
-            runs.push(one.run);
+            let settings = settings_in(&self.output, one.run.settings);
+            runs.push(Run { settings, ..one.run });
             pictures.push((i, one.picture));
         }
         let results = Results {
@@ -148,19 +153,11 @@ impl Bench {
     }
 }
 
-fn available(checked: &Checked, form: Form) -> bool {
-    let missing = matches!(checked.check.forms.get(&form), Some(Verdict::Missing(_)));
-    !missing && (form.cull != Cull::Bounds || checked.device.info.depth_bounds)
-}
-
-/// A spinner on a terminal, nothing on a pipe.
-fn progress() -> ProgressBar {
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    bar
+fn available(checked: Option<&Checked>, form: Form) -> bool {
+    checked.is_some_and(|checked| {
+        let missing = matches!(checked.check.forms.get(&form), Some(Verdict::Missing(_)));
+        !missing && (form.cull != Cull::Bounds || checked.device.info.depth_bounds)
+    })
 }
 
 /// The command line without the program's folder, words quoted where they need it.
@@ -169,6 +166,6 @@ fn command_line() -> String {
         let plain = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "-_./,:=+".contains(c));
         if plain { word } else { format!("'{word}'") }
     };
-    let words = std::env::args().skip(1).map(quoted);
+    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
     std::iter::once("depthleap".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

@@ -1,24 +1,33 @@
 //! `depthleap info`: devices, features, queues, and which forms of culling work.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use super::output;
+use crate::error::Result;
 use crate::frame::{SelfCheck, self_check};
-use crate::measure::{write, write_atomically};
+use crate::measure::record::FORMAT;
+use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::scene::settings::MethodName;
 use crate::vulkan::{Device, DeviceInfo, Instance, pick};
 
 /// Devices, features, queues, and which --cull works
+///
+/// Runs the self-check on every device that can be used: a small scene in each form of culling and marking, counts and
+/// picture held against the rule.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  depthleap info
+  depthleap info --device nvidia
+  depthleap info --json - | jq '.devices[].auto'")]
 pub struct Info {
-    /// Check only this device
+    /// Only this device, by its index or part of its name
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
-    /// Write it as JSON too
+    /// Write it as JSON too; for - to standard output, instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -40,6 +49,8 @@ struct DeviceJson<'a> {
 
 impl Info {
     pub fn run(&self) -> Result<()> {
+        let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
+        output::check(&outputs)?;
         let instance = Instance::new(false)?;
         let devices = instance.devices()?;
         let (chosen, reason) = pick(&devices, self.device.as_deref())?;
@@ -64,14 +75,13 @@ impl Info {
                 auto: check.and_then(|c| c.automatic(MethodName::NnOmni)).map(|f| f.name()),
             });
         }
-        write::write_standard_output(text.as_bytes())?;
         if let Some(file) = &self.json {
-            let info = InfoJson { version: crate::measure::record::FORMAT, devices: list };
-            let json =
-                serde_json::to_vec_pretty(&info).map_err(|e| Error::output(file.display(), e, "please report this"))?;
-            write_atomically(file, &json)?;
+            output::write_json(file, &InfoJson { version: FORMAT, devices: list })?;
+            if is_standard_output(file) {
+                return Ok(());
+            }
         }
-        Ok(())
+        write_standard_output(text.as_bytes())
     }
 }
 

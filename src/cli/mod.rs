@@ -4,6 +4,7 @@ mod bench;
 mod info;
 mod open;
 mod options;
+mod output;
 mod plan;
 mod render;
 
@@ -12,6 +13,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
+use crate::measure::write::write_standard_error;
 
 /// A raw Vulkan volume renderer and bench for depth-bounds culling
 ///
@@ -19,6 +21,7 @@ use crate::error::Result;
 /// counts every fragment, times every pass and checks every picture against an f64 reference.
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100, after_help = EXAMPLES)]
+#[command(after_long_help = format!("{EXAMPLES}\n\n{NOTES}"))]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -31,6 +34,28 @@ const EXAMPLES: &str = "Examples:
   depthleap render builtin:shells:128 --method rc-ert -o -.png > shells.png
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
+
+const NOTES: &str = "Input:
+  A SCENE is a TOML file; every option has its key there, an option given wins. A VOLUME is an NRRD
+  file, a raw file with --dims and --type, or builtin:NAME:SIZE. Without either the volume is
+  builtin:shells:64.
+
+Output:
+  Files are written to a temporary name and renamed: they are there completely or not at all. Where
+  a file is asked for, - stands for standard output (a PNG; -.exr and -.npy name another format).
+  Tables of `render` and progress go to standard error, progress on a terminal only.
+
+Exit codes:
+  0  done
+  2  an option, or a combination of options, that makes no sense
+  3  a file, or a value in it, that is wrong
+  4  a device, or a feature of it, that is missing
+  5  a check that did not hold: messages of the validation layer, a wrong picture
+  6  a result that could not be written
+
+Environment:
+  VK_DRIVER_FILES  drivers the Vulkan loader offers (VK_ICD_FILENAMES for older loaders)
+  NO_COLOR         no colours in messages";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -56,7 +81,9 @@ fn finish(result: Result<()>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            // One line, whatever a driver or a file name holds.
+            let line = error.to_string().replace(['\n', '\r'], " ");
+            write_standard_error(&format!("error: {line}\n"));
             ExitCode::from(error.exit_code())
         }
     }

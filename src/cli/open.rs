@@ -11,7 +11,7 @@ use crate::vulkan::{Device, Instance, pick};
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Device")]
 pub struct DeviceOptions {
-    /// Index or part of the name of the device (see `depthleap info`)
+    /// Index or part of the name of the device, see `depthleap info` [default: discrete before integrated before CPU]
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
     /// Switch the validation layer on, synchronization validation included; a message ends the run with an error
@@ -20,10 +20,10 @@ pub struct DeviceOptions {
     /// Use one queue for everything, even where there are more
     #[arg(long)]
     single_queue: bool,
-    /// How passes that nobody takes part in are left out [default: conditional where the driver has it]
-    #[arg(long)]
+    /// How passes that nobody takes part in are left out [default: conditional where the driver has it, else readback]
+    #[arg(long, value_name = "WAY")]
     early_end: Option<EarlyEnd>,
-    /// Compile the shaders from this folder, laid out like glsl/
+    /// Compile the shaders from this folder, laid out like glsl/ [default: those built in]
     #[cfg(feature = "runtime-shaders")]
     #[arg(long, value_name = "DIR")]
     glsl: Option<std::path::PathBuf>,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
@@ -19,85 +19,87 @@ use crate::scene::volume::VoxelType;
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneOptions {
-    /// Transfer function: ramp, surface, haze, linear, or a JSON file
+    /// Transfer function: ramp, surface, haze, linear, or a JSON file {"points": [[x, r, g, b, a], ...]} with x from 0
+    /// to 1 [default: ramp]
     #[arg(long, value_name = "NAME|FILE")]
     tf: Option<String>,
-    /// Length an opacity stands for, in voxels [default: 1]
-    #[arg(long, value_name = "VOXELS")]
+    /// Length an opacity stands for, in voxels of the finest spacing [default: 1]
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
     reference: Option<f64>,
-    /// Scalar range LOW,HIGH that the transfer function covers, in the volume's values
+    /// Scalar range that the transfer function covers, in the volume's values [default: the whole range of u8 and u16,
+    /// minimum to maximum of other types]
     #[arg(long, value_name = "LOW,HIGH", value_parser = numbers::<2>, allow_hyphen_values = true)]
     range: Option<[f64; 2]>,
     /// What a voxel that is no finite number stands for [default: replace]
-    #[arg(long)]
+    #[arg(long, value_name = "POLICY")]
     nan: Option<NanPolicy>,
-    /// Sizes of a raw file
-    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>)]
-    dims: Option<[f64; 3]>,
+    /// Voxels along x, y and z of a raw file (x varies fastest, little endian)
+    #[arg(long, value_name = "X,Y,Z", value_parser = counts, allow_hyphen_values = true)]
+    dims: Option<[usize; 3]>,
     /// Voxel type of a raw file
-    #[arg(long = "type")]
+    #[arg(long = "type", value_name = "TYPE")]
     voxel_type: Option<VoxelType>,
-    /// Distances of the voxels of a raw file
-    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>)]
+    /// Distances between the voxels of a raw file, in any unit [default: 1,1,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true)]
     spacing: Option<[f64; 3]>,
     /// How voxels are kept on the device [default: native]
-    #[arg(long)]
+    #[arg(long, value_name = "FORMAT")]
     texture: Option<VolumeTexture>,
 
     /// Picture size in pixels [default: 500x500]
-    #[arg(long, value_name = "WxH", value_parser = viewport, help_heading = "View")]
+    #[arg(long, value_name = "WxH", value_parser = viewport, allow_hyphen_values = true, help_heading = "View")]
     viewport: Option<[u32; 2]>,
     /// Eye in volume space: the longest side of the volume is 1, its centre 0,0,0 [default: 0,0,1.91]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
     eye: Option<[f64; 3]>,
-    /// Point looked at [default: 0,0,0]
+    /// Point looked at, in volume space [default: 0,0,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
     target: Option<[f64; 3]>,
     /// Direction that is up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
     up: Option<[f64; 3]>,
-    /// Vertical field of view in degrees [default: 45]
-    #[arg(long, value_name = "DEGREES", help_heading = "View")]
+    /// Vertical field of view, above 0 and below 180 degrees [default: 45]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "View")]
     fov: Option<f64>,
-    /// Eye on a sphere instead of --eye: degrees from +z towards +x
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "eye", help_heading = "View")]
+    /// Eye on a sphere about 0,0,0 instead of --eye: turned from +z towards +x [default: 0]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "eye", help_heading = "View")]
     azimuth: Option<f64>,
-    /// Degrees from there towards +y
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "eye", help_heading = "View")]
+    /// And lifted towards +y [default: 0]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "eye", help_heading = "View")]
     elevation: Option<f64>,
-    /// Distance of the eye from the volume's centre [default: 1.91]
-    #[arg(long, value_name = "UNITS", conflicts_with = "eye", help_heading = "View")]
+    /// At this distance from 0,0,0, in longest sides of the volume [default: 1.91]
+    #[arg(long, value_name = "SIDES", allow_negative_numbers = true, conflicts_with = "eye", help_heading = "View")]
     distance: Option<f64>,
-    /// Colour behind the volume in PNG files, linear [default: 0,0,0]
-    #[arg(long, value_name = "R,G,B", value_parser = numbers::<3>, help_heading = "View")]
+    /// Colour behind the volume in PNG files, linear light from 0 to 1 [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
     background: Option<[f64; 3]>,
     /// Format colours are accumulated in [default: rgba32f]
-    #[arg(long, help_heading = "View")]
+    #[arg(long, value_name = "FORMAT", help_heading = "View")]
     accumulate: Option<Accumulate>,
 
     /// Distance between samples, in voxels of the finest spacing [default: 1]
-    #[arg(long, value_name = "VOXELS", help_heading = "Sampling")]
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true, help_heading = "Sampling")]
     step: Option<f64>,
     /// Where in its step a sample is taken [default: left]
-    #[arg(long, help_heading = "Sampling")]
+    #[arg(long, value_name = "PLACE", help_heading = "Sampling")]
     offset: Option<Offset>,
-    /// What the last sample of a ray stands for: a full step or what is left [default: full]
-    #[arg(long, help_heading = "Sampling")]
+    /// What the last sample of a ray stands for [default: full]
+    #[arg(long, value_name = "LENGTH", help_heading = "Sampling")]
     last: Option<Last>,
     /// How opacities are brought to the step [default: exponential]
-    #[arg(long, help_heading = "Sampling")]
+    #[arg(long, value_name = "RULE", help_heading = "Sampling")]
     alpha: Option<Alpha>,
-    /// Who interpolates: the texture unit or the shader in f32 [default: hardware]
-    #[arg(long, help_heading = "Sampling")]
+    /// Who interpolates the volume [default: hardware]
+    #[arg(long, value_name = "WHO", help_heading = "Sampling")]
     filter: Option<Filter>,
     /// M, samples per main pass [default: 8]
-    #[arg(long, value_name = "M", help_heading = "Sampling")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Sampling")]
     samples_per_pass: Option<u32>,
     /// N, main passes; 0 takes as many as the longest ray of the view needs [default: 0]
-    #[arg(long, value_name = "N", help_heading = "Sampling")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Sampling")]
     passes: Option<u32>,
-    /// T, a ray ends when its opacity is greater [default: 0.95]
-    #[arg(long, value_name = "OPACITY", help_heading = "Sampling")]
+    /// T, a ray ends when its opacity is greater; 1 ends none early [default: 0.95]
+    #[arg(long, value_name = "OPACITY", allow_negative_numbers = true, help_heading = "Sampling")]
     termination: Option<f64>,
 }
 
@@ -106,12 +108,12 @@ pub struct SceneOptions {
 #[command(next_help_heading = "Method")]
 pub struct MethodOptions {
     /// How fragments are culled [default: auto]
-    #[arg(long)]
+    #[arg(long, value_name = "TEST")]
     pub cull: Option<Cull>,
     /// How the intermediate pass stores its decision [default: auto]
-    #[arg(long)]
+    #[arg(long, value_name = "WAY")]
     pub mark: Option<Mark>,
-    /// Notice that a ray has left the volume only on arrival, as the papers do
+    /// nn-omni: notice that a ray has left the volume only on arrival, as the papers do
     #[arg(long)]
     no_exit_lookahead: bool,
     /// rc-block: test for empty blocks before the first main pass too
@@ -123,7 +125,7 @@ impl SceneOptions {
     /// The settings of `scene` (a scene file, a volume, `builtin:NAME:SIZE`, or nothing) under these options.
     ///
     /// # Errors
-    /// When a scene file is wrong.
+    /// When a scene file cannot be read.
     pub fn settings(&self, scene: Option<&str>) -> Result<Settings> {
         let mut settings = match scene {
             None => Settings::default(),
@@ -137,15 +139,12 @@ impl SceneOptions {
                 settings
             }
         };
-        self.apply(&mut settings)?;
+        self.apply(&mut settings);
         Ok(settings)
     }
 
     /// Writes the options that were given over `settings`.
-    ///
-    /// # Errors
-    /// When `dims` are no counts.
-    pub fn apply(&self, settings: &mut Settings) -> Result<()> {
+    pub fn apply(&self, settings: &mut Settings) {
         /// Over the key where the option was given.
         fn put<T: Clone>(key: &mut T, option: &Option<T>) {
             if let Some(value) = option {
@@ -160,17 +159,19 @@ impl SceneOptions {
         if let Some(tf) = &self.tf {
             let reference = settings.transfer.reference;
             settings.transfer = TransferSettings { reference, ..TransferSettings::default() };
-            if PRESETS.contains(&tf.as_str()) || !tf.contains(['.', '/']) {
-                settings.transfer.preset = Some(tf.clone());
-            } else {
+            // What is neither a preset nor looks like a file is a preset with a typing error.
+            let file = tf.contains(['.', '/']) || Path::new(tf).exists();
+            if file && !PRESETS.contains(&tf.as_str()) {
                 settings.transfer.file = Some(PathBuf::from(tf));
+            } else {
+                settings.transfer.preset = Some(tf.clone());
             }
         }
         put(&mut settings.transfer.reference, &self.reference);
         let volume = &mut settings.volume;
         put_some(&mut volume.range, &self.range);
         put(&mut volume.nan, &self.nan);
-        put_some(&mut volume.dims, &self.dims.map(counts).transpose()?);
+        put_some(&mut volume.dims, &self.dims);
         put_some(&mut volume.voxel_type, &self.voxel_type);
         put_some(&mut volume.spacing, &self.spacing);
         put(&mut volume.texture, &self.texture);
@@ -197,7 +198,6 @@ impl SceneOptions {
         put(&mut sampling.samples_per_pass, &self.samples_per_pass);
         put(&mut sampling.passes, &self.passes);
         put(&mut sampling.termination, &self.termination);
-        Ok(())
     }
 }
 
@@ -230,32 +230,25 @@ pub fn scene_name(settings: &Settings) -> String {
 /// Every method that is shown for a scene when none is asked for.
 pub const BENCH_METHODS: [MethodName; 4] = [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni];
 
-fn counts(dims: [f64; 3]) -> Result<[usize; 3]> {
-    if dims.iter().all(|d| d.fract() == 0.0 && (1.0..=1e9).contains(d)) {
-        Ok(dims.map(|d| d as usize))
-    } else {
-        Err(Error::usage(
-            "--dims",
-            format!("{dims:?} are no sizes"),
-            "give three whole numbers, 256,256,128 for example",
-        ))
-    }
+/// `256,256,128` as sizes of a volume.
+fn counts(text: &str) -> Result<[usize; 3], String> {
+    list(text, |part| part.parse().ok().filter(|n| *n > 0), "no number of voxels of at least 1")
 }
 
-/// `1,2,3` as N numbers.
-fn numbers<const N: usize>(text: &str) -> std::result::Result<[f64; N], String> {
-    let list: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f64>().map_err(|_| format!("`{part}` is no number")))
-        .collect::<std::result::Result<_, _>>()?;
-    if let Some(odd) = list.iter().find(|n| !n.is_finite()) {
-        return Err(format!("{odd} is not finite"));
-    }
-    list.try_into().map_err(|list: Vec<f64>| format!("{N} numbers are needed, {} are given", list.len()))
+/// `1,2,3` as N finite numbers.
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    list(text, |part| part.parse().ok().filter(|n: &f64| n.is_finite()), "no finite number")
+}
+
+/// N entries with commas between; `no` says what an entry is that `entry` does not take.
+fn list<T, const N: usize>(text: &str, entry: impl Fn(&str) -> Option<T>, no: &str) -> Result<[T; N], String> {
+    let one = |part: &str| entry(part.trim()).ok_or_else(|| format!("`{part}` is {no}"));
+    let entries: Vec<T> = text.split(',').map(one).collect::<Result<_, _>>()?;
+    entries.try_into().map_err(|e: Vec<T>| format!("{N} numbers are needed, {} are given", e.len()))
 }
 
 /// `500x500` as width and height.
-fn viewport(text: &str) -> std::result::Result<[u32; 2], String> {
+fn viewport(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once('x').ok_or("give WIDTHxHEIGHT, 500x500 for example")?;
     let side = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
     Ok([side(width)?, side(height)?])

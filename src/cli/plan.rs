@@ -1,32 +1,35 @@
 //! `depthleap plan`: the passes a scene needs, and what is left out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 
 use super::options::{MethodOptions, SceneOptions, scene_name};
-use crate::error::{Error, Result};
-use crate::measure::write_atomically;
+use super::output;
+use crate::error::Result;
+use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::plan::{self, LeftOut, bytes_per_pixel};
 use crate::read;
+use crate::scene::Scene;
 use crate::scene::settings::MethodName;
 
 /// The passes a scene needs, and what is left out; needs no GPU
 ///
 /// `--cull auto` and `--mark auto` stand for the papers' own forms here, since no device is asked.
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Examples:\n  depthleap plan fuel.nrrd --method rc-block\n  depthleap plan --method nn-omni --cull ztest --json plan.json"
-)]
+#[command(after_help = "Examples:
+  depthleap plan fuel.nrrd --method rc-block
+  depthleap plan --method nn-omni --cull ztest --json plan.json
+  depthleap plan scene.toml --json - | jq .passes")]
 pub struct Plan {
-    /// Scene file, volume file or builtin:NAME:SIZE [default: builtin:shells:64]
+    /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<String>,
     /// Render method [default: nn-omni]
-    #[arg(long)]
+    #[arg(long, value_name = "NAME")]
     method: Option<MethodName>,
-    /// Write the plan as JSON too
+    /// Write the plan as JSON too; for - to standard output, instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]
@@ -68,39 +71,47 @@ struct TargetJson {
 
 impl Plan {
     pub fn run(&self) -> Result<()> {
+        let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
+        output::check(&outputs)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
         self.method_options.apply(&mut settings);
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let scene = read::scene(&settings)?;
         let form = plan::form(&scene, plan::papers_form(settings.method.name))?;
         let plan = plan::plan(&scene, form)?;
-        let form_name = form.map_or_else(String::new, |f| format!(", {}", f.name()));
-        let mut text = format!(
-            "{}: {}{form_name}, {} main passes of {} samples, {} x {} pixels of {} x {}\n",
-            scene_name(&settings),
-            settings.method.name.name(),
-            plan.passes,
-            settings.sampling.samples_per_pass,
-            plan.view.region.width,
-            plan.view.region.height,
-            settings.image.size[0],
-            settings.image.size[1],
-        );
-        for line in plan.lines() {
-            text.push_str(&line);
-            text.push('\n');
-        }
-        crate::measure::write::write_standard_output(text.as_bytes())?;
         if let Some(file) = &self.json {
-            let json = serde_json::to_vec_pretty(&to_json(&scene, &plan))
-                .map_err(|e| Error::output(file.display(), e, "please report this"))?;
-            write_atomically(file, &json)?;
+            output::write_json(file, &to_json(&scene, &plan))?;
+            if is_standard_output(file) {
+                return Ok(());
+            }
         }
-        Ok(())
+        write_standard_output(text(&scene, &plan).as_bytes())
     }
 }
 
-fn to_json<'a>(scene: &crate::scene::Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
+fn text(scene: &Scene, plan: &plan::Plan) -> String {
+    let (settings, region) = (&scene.settings, plan.view.region);
+    let form = plan.form.map_or_else(String::new, |f| format!(", {}", f.name()));
+    let mut text = format!(
+        "{}: {}{form}, {} main pass{} of {} samples, {} x {} pixels of {} x {}\n",
+        scene_name(settings),
+        settings.method.name.name(),
+        plan.passes,
+        if plan.passes == 1 { "" } else { "es" },
+        settings.sampling.samples_per_pass,
+        region.width,
+        region.height,
+        settings.image.size[0],
+        settings.image.size[1],
+    );
+    for line in plan.lines() {
+        text.push_str(&line);
+        text.push('\n');
+    }
+    text
+}
+
+fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
     let names = |step: &crate::pass::Step, writes: bool| {
         step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
     };

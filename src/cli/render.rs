@@ -6,41 +6,51 @@ use clap::Args;
 
 use super::open::DeviceOptions;
 use super::options::{MethodOptions, SceneOptions, scene_name};
+use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::measure::picture::Format;
-use crate::measure::runner::{Effort, Runner};
-use crate::measure::{table, write_atomically};
+use crate::measure::runner::{Effort, Measured, Runner};
+use crate::measure::write::write_standard_error;
+use crate::measure::{Run, table};
 use crate::read;
+use crate::scene::Settings;
 use crate::scene::settings::MethodName;
 
 /// One picture, its counts and times
+///
+/// Writes the picture and prints a table of counts and times to standard error. The picture is what one frame leaves;
+/// it is rendered once for the counts and then again for each time.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap render fuel.nrrd --tf ramp -o fuel.png
   depthleap render scene.toml --method rc-block --json counts.json -o picture.exr
   depthleap render --from counts.json -o again.png
-  depthleap render head.raw --dims 256,256,128 --type u16 -o head.npy")]
+  depthleap render --from out/results.json#3 --viewport 1000x1000 -o large.png
+  depthleap render head.raw --dims 256,256,128 --type u16 -o head.npy
+  depthleap render fuel.nrrd -o fuel.png --json - | jq .fragments.main")]
 pub struct Render {
-    /// Scene file, volume file or builtin:NAME:SIZE [default: builtin:shells:64]
+    /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<String>,
-    /// Picture: .png (sRGB), .exr or .npy (float, linear, premultiplied); -.png writes to standard output
+    /// Picture: .png (8-bit sRGB over --background), .exr or .npy (float, linear, premultiplied; NPY [height][width][4],
+    /// row 0 on top); -.png, -.exr and -.npy write to standard output, - is -.png
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     output: PathBuf,
     /// Render method [default: nn-omni]
-    #[arg(long)]
+    #[arg(long, value_name = "NAME")]
     method: Option<MethodName>,
-    /// Repeat the run whose settings stand in this JSON (FILE#INDEX picks one of several)
+    /// Repeat the run whose settings stand in this JSON of `render` or `bench`, options given here win; FILE#INDEX picks
+    /// one of several, counted from 0
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     from: Option<PathBuf>,
-    /// Write counts, times and settings as JSON
+    /// Write counts, times and settings as JSON, to standard output for -
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Compare with the f64 reference
+    /// Compare with the f64 reference, which also gives the lower bound of main fragments; takes its time
     #[arg(long)]
     reference_error: bool,
-    /// Frames timed
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    /// Frames timed; 0 measures no times
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     repeats: usize,
     #[command(flatten)]
     scene_options: SceneOptions,
@@ -52,42 +62,42 @@ pub struct Render {
 
 impl Render {
     pub fn run(&self) -> Result<()> {
-        // Before any work is done for nothing.
         Format::of(&self.output)?;
+        let outputs: Vec<&Path> = std::iter::once(&self.output).chain(&self.json).map(PathBuf::as_path).collect();
+        output::check(&outputs)?;
         let mut settings = match &self.from {
             Some(file) => {
                 let mut settings = read::settings_from_json(file)?;
-                self.scene_options.apply(&mut settings)?;
+                self.scene_options.apply(&mut settings);
                 settings
             }
             None => self.scene_options.settings(self.scene.as_deref())?,
         };
         self.method_options.apply(&mut settings);
         settings.method.name = self.method.unwrap_or(settings.method.name);
-        let scene = read::scene(&settings)?;
-        let checked = self.device.open()?;
-        let effort = Effort { warmups: 1, repeats: self.repeats, reference: self.reference_error };
-        let mut runner = Runner::new(&checked, scene, scene_name(&settings));
-        let mut measured = runner.measure(&[settings.method.clone()], effort, &|_| {})?;
-        let Some(one) = measured.pop() else {
-            return Err(Error::check("render", "no frame was run", "please report this"));
-        };
-        drop(runner);
-        self.device.close(checked)?;
-        one.picture.write(&self.output, settings.image.background)?;
+        let Measured { run, picture, .. } = self.measure(&settings)?;
+        picture.write(&self.output, settings.image.background)?;
         if let Some(file) = &self.json {
-            write_json(file, &one.run.to_json()?)?;
+            let folder = file.parent().unwrap_or(Path::new(""));
+            output::write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
         }
         // The picture may be on standard output.
-        eprint!("{}", table::table(std::slice::from_ref(&one.run)));
+        write_standard_error(&table::table(std::slice::from_ref(&run)));
         Ok(())
     }
-}
 
-fn write_json(file: &Path, json: &str) -> Result<()> {
-    if file == Path::new("-") {
-        crate::measure::write::write_standard_output(json.as_bytes())
-    } else {
-        write_atomically(file, json.as_bytes())
+    fn measure(&self, settings: &Settings) -> Result<Measured> {
+        let scene = read::scene(settings)?;
+        let opened = match settings.method.name {
+            MethodName::Cpu => None,
+            _ => Some(self.device.open()?),
+        };
+        let effort = Effort { warmups: 1, repeats: self.repeats, reference: self.reference_error };
+        let progress = Progress::new();
+        let mut runner = Runner::new(opened.as_ref(), scene, scene_name(settings));
+        let mut measured = runner.measure(&[settings.method.clone()], effort, &|what| progress.say(what))?;
+        drop((runner, progress));
+        opened.map_or(Ok(()), |checked| self.device.close(checked))?;
+        measured.pop().ok_or_else(|| Error::check("render", "no frame was run", "please report this"))
     }
 }

@@ -10,6 +10,7 @@
 pub mod comparison;
 pub mod csv;
 pub mod error;
+pub mod limits;
 pub mod number;
 pub mod picture;
 pub mod plot;

@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use npyz::WriterBuilder;
 
-use super::write::{write_atomically, write_standard_output};
+use super::write::{is_standard_output, write_atomically, write_standard_output};
 use crate::error::{Error, Result};
 
 /// Premultiplied linear RGBA, row 0 on top.
@@ -88,12 +88,7 @@ impl Picture {
     pub fn write(&self, path: &Path, background: [f64; 3]) -> Result<()> {
         let format = Format::of(path)?;
         let bytes = self.encode(format, background)?;
-        let name = path.as_os_str();
-        if name == "-" || path.parent() == Some(Path::new("")) && path.file_stem().is_some_and(|stem| stem == "-") {
-            write_standard_output(&bytes)
-        } else {
-            write_atomically(path, &bytes)
-        }
+        if is_standard_output(path) { write_standard_output(&bytes) } else { write_atomically(path, &bytes) }
     }
 
     /// The bytes of such a file.

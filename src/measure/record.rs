@@ -39,7 +39,7 @@
 //! | `left_out` | array of {`what`, `why`} | what the scene did not need |
 //! | `plan` | array of text | the frame's steps, one a line |
 //! | `notes` | array of text | what a reader of the numbers should know |
-//! | `settings` | object | the keys of a scene file, from which alone the run can be repeated |
+//! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
 //! passes}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}

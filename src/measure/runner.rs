@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::error::compare;
+use super::limits;
 use super::picture::Picture;
 use super::record::{Counts, FORMAT, Ideal, LeftOut, PassTimes, Run};
 use super::timing::{HostTimes, Timing, Timings};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::frame::{
     self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
 };
@@ -17,7 +18,7 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::settings::{MethodName, MethodSettings};
+use crate::scene::settings::{Cull, MethodName, MethodSettings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -50,11 +51,12 @@ pub struct Measured {
 
 /// One scene on one device; what its methods share is made once.
 pub struct Runner<'a> {
-    checked: &'a Checked,
+    /// None for the method `cpu` alone, which needs no device.
+    checked: Option<&'a Checked>,
     scene: Scene,
     name: String,
     structures: Structures,
-    resident: Resident,
+    resident: Option<Resident>,
     /// The twin's frame, with and without early termination.
     references: BTreeMap<bool, CpuFrame>,
 }
@@ -71,13 +73,13 @@ struct Entry {
 }
 
 impl<'a> Runner<'a> {
-    pub fn new(checked: &'a Checked, scene: Scene, name: String) -> Self {
+    pub fn new(checked: Option<&'a Checked>, scene: Scene, name: String) -> Self {
         Self {
             checked,
             scene,
             name,
             structures: Structures::default(),
-            resident: Resident::new(&checked.device),
+            resident: checked.map(|c| Resident::new(&c.device)),
             references: BTreeMap::new(),
         }
     }
@@ -112,65 +114,47 @@ impl<'a> Runner<'a> {
         entries.into_iter().map(|entry| self.finish(entry, effort)).collect()
     }
 
-    fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
+    /// Whether every one of `methods` can be run, before any is.
+    ///
+    /// # Errors
+    /// As [`Runner::measure`], but for what only running shows.
+    pub fn check(&self, methods: &[MethodSettings]) -> Result<()> {
+        methods.iter().try_for_each(|method| self.plan(method).map(drop))
+    }
+
+    fn plan(&self, method: &MethodSettings) -> Result<(Scene, Plan)> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let form = plan::form(&scene, self.checked.check.automatic(method.name))?;
-        self.refuse_missing(form)?;
-        let plan = plan::plan(&scene, form)?;
-        self.structures.prepare(&scene, &plan);
-        let size = scene.settings.image.size;
+        let plan = if method.name == MethodName::Cpu {
+            plan::plan(&scene, plan::papers_form(method.name))?
+        } else {
+            let checked = self.checked.ok_or_else(no_device)?;
+            let form = plan::form(&scene, checked.check.automatic(method.name))?;
+            refuse_missing(checked, form)?;
+            let plan = plan::plan(&scene, form)?;
+            limits::check_device(&checked.device.info, &scene, &plan)?;
+            plan
+        };
+        limits::check_host(&scene)?;
+        Ok((scene, plan))
+    }
+
+    fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
+        let (scene, plan) = self.plan(method)?;
         if method.name == MethodName::Cpu {
-            let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
-            let frame = cpu::run(&scene, &plan, &self.structures);
-            let run = FrameRun {
-                frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
-                cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,
-                fragments: Some(frame.counts.clone()),
-                ..FrameRun::default()
-            };
-            let picture = single(&frame, size)?;
-            return Ok(Entry {
-                scene,
-                plan,
-                frame: None,
-                plain: vec![run.clone()],
-                counts: run,
-                picture,
-                timed: vec![],
-            });
+            return prepare_cpu(scene, plan);
         }
-        self.resident.prepare(&scene, &plan, &self.structures)?;
-        let mut frame = GpuFrame::new(&self.checked.device, &scene, &plan, &self.resident, self.checked.early_end)?;
+        let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
+        self.structures.prepare(&scene, &plan);
+        resident.prepare(&scene, &plan, &self.structures)?;
+        let mut frame = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
         for _ in 0..effort.warmups {
             frame.run(Measure::Nothing)?;
         }
-        let statistics = self.checked.check.statistics.is_none();
+        let statistics = checked.check.statistics.is_none();
         let counts = frame.run(Measure::Counts { statistics })?;
-        let picture = Picture::new(size, frame.picture()?)?;
+        let picture = Picture::new(scene.settings.image.size, frame.picture()?)?;
         Ok(Entry { scene, plan, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
-    }
-
-    /// A form that the device has not is refused; one that it does wrongly is run and named.
-    fn refuse_missing(&self, form: Option<Form>) -> Result<()> {
-        let missing = form.and_then(|form| match self.checked.check.forms.get(&form) {
-            Some(Verdict::Missing(what)) => Some((form, what)),
-            None if form.cull == crate::scene::settings::Cull::Bounds && !self.checked.device.info.depth_bounds => {
-                self.checked.check.forms.iter().find_map(|(_, v)| match v {
-                    Verdict::Missing(what) => Some((form, what)),
-                    _ => None,
-                })
-            }
-            _ => None,
-        });
-        match missing {
-            None => Ok(()),
-            Some((form, what)) => Err(crate::Error::device(
-                format!("--cull {} on {}", form.cull_name(), self.checked.device.info.name),
-                what,
-                "use --cull ztest, or --cull auto, which takes what the device has",
-            )),
-        }
     }
 
     /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
@@ -198,8 +182,10 @@ impl<'a> Runner<'a> {
             ideal = (entry.scene.settings.method.name != MethodName::Rc).then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
-        let device = &self.checked.device.info;
         let on_cpu = entry.frame.is_none();
+        let info = self.checked.map(|c| &c.device.info).filter(|_| !on_cpu);
+        let device = info.map_or_else(|| "none (f64 on the CPU)".to_owned(), |i| i.name.clone());
+        let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = entry.plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
         let counted = |counts: frame::Counts| Counts::of(counts.main, counts.intermediate);
@@ -220,9 +206,9 @@ impl<'a> Runner<'a> {
             memory,
             ideal,
             error,
-            device: if on_cpu { "none (f64 on the CPU)".to_owned() } else { device.name.clone() },
-            driver: if on_cpu { String::new() } else { format!("{} {}", device.driver_name, device.driver_info) },
-            self_check: self.checked.check.words(),
+            device,
+            driver,
+            self_check: self.checked.filter(|_| !on_cpu).map(|c| c.check.words()).unwrap_or_default(),
             left_out: entry
                 .plan
                 .left_out
@@ -238,13 +224,15 @@ impl<'a> Runner<'a> {
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
         let mut notes = Vec::new();
-        if let Some(why) = &self.checked.check.statistics {
-            notes.push(format!("shader invocations are not given: {why}"));
-        }
-        if let Some(form) = entry.plan.form
-            && let Some(Verdict::Wrong(what)) = self.checked.check.forms.get(&form)
-        {
-            notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
+        if let Some(check) = self.checked.map(|c| &c.check).filter(|_| entry.frame.is_some()) {
+            if let Some(why) = &check.statistics {
+                notes.push(format!("shader invocations are not given: {why}"));
+            }
+            if let Some(form) = entry.plan.form
+                && let Some(Verdict::Wrong(what)) = check.forms.get(&form)
+            {
+                notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
+            }
         }
         if entry.scene.settings.method.name == MethodName::RcBlock {
             let first = entry.scene.settings.method.block_first;
@@ -261,23 +249,63 @@ impl<'a> Runner<'a> {
         if let Some(distance) = self.structures.distance.as_ref().filter(|_| reads(Resource::NearestDistance)) {
             ms += distance.cpu_ms;
         }
-        for (resource, built) in &self.resident.build_ms {
-            ms += if reads(*resource) { *built } else { 0.0 };
-        }
+        let on_device = self.resident.iter().flat_map(|r| &r.build_ms);
+        ms += on_device.filter(|(r, _)| reads(**r)).map(|(_, built)| built).sum::<f64>();
         (ms > 0.0).then(|| Timing::once(ms))
     }
 
     fn structure_bytes(&self, plan: &Plan) -> u64 {
         let structures = [Resource::NearestDistance, Resource::BlockRange, Resource::BlockTable];
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        self.resident.bytes().into_iter().filter(|(r, _)| structures.contains(r) && reads(*r)).map(|(_, b)| b).sum()
+        let there = self.resident.iter().flat_map(Resident::bytes);
+        there.filter(|(r, _)| structures.contains(r) && reads(*r)).map(|(_, b)| b).sum()
     }
 
     fn memory(&self, entry: &Entry) -> BTreeMap<String, u64> {
         let reads = |r: Resource| entry.plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        let shared = self.resident.bytes().into_iter().filter(|(r, _)| entry.frame.is_some() && reads(*r));
+        let there = self.resident.iter().flat_map(Resident::bytes);
+        let shared = there.filter(|(r, _)| entry.frame.is_some() && reads(*r));
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
+    }
+}
+
+fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
+    let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
+    let frame = cpu::run(&scene, &plan, &Structures::default());
+    let run = FrameRun {
+        frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
+        cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,
+        fragments: Some(frame.counts.clone()),
+        ..FrameRun::default()
+    };
+    let picture = single(&frame, scene.settings.image.size)?;
+    Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
+}
+
+fn no_device() -> Error {
+    Error::device("method", "needs a device, and none is open", "open one, or use --method cpu")
+}
+
+/// A form that the device has not is refused; one that it does wrongly is run and named.
+fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
+    let missing = form.and_then(|form| match checked.check.forms.get(&form) {
+        Some(Verdict::Missing(what)) => Some((form, what)),
+        None if form.cull == Cull::Bounds && !checked.device.info.depth_bounds => {
+            checked.check.forms.iter().find_map(|(_, v)| match v {
+                Verdict::Missing(what) => Some((form, what)),
+                _ => None,
+            })
+        }
+        _ => None,
+    });
+    match missing {
+        None => Ok(()),
+        Some((form, what)) => Err(Error::device(
+            format!("--cull {} on {}", form.cull_name(), checked.device.info.name),
+            what,
+            "use --cull ztest, or --cull auto, which takes what the device has",
+        )),
     }
 }
 

@@ -33,7 +33,8 @@ fn group_table(group: &Group) -> String {
     };
 
     let run = group.first();
-    let mut out = format!("{}\n{}\n{}, {}\n\n", run.scene, group.subtitle(), run.device, run.driver);
+    let between = if run.driver.is_empty() { "" } else { ", " };
+    let mut out = format!("{}\n{}\n{}{between}{}\n\n", run.scene, group.subtitle(), run.device, run.driver);
     out += &line(&COLUMNS.map(|c| c.head[0]));
     out += &line(&COLUMNS.map(|c| c.head[1]));
     out += &format!("{}\n", "-".repeat(widths.iter().sum::<usize>() + 2 * (widths.len() - 1)));

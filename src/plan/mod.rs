@@ -1,5 +1,6 @@
 //! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
 
+pub mod longest;
 mod passes;
 mod text;
 mod view;
@@ -34,6 +35,9 @@ pub struct LeftOut {
 
 /// Main passes beyond this many are refused: each is recorded, counted and timed by itself.
 const MOST_PASSES: u32 = 65_536;
+
+/// Samples of a ray, those beyond its end included; their indices are 32-bit numbers in shaders.
+const MOST_SAMPLES: u64 = 1 << 31;
 
 /// What `auto` stands for where nothing is known of the device: cull and mark of the papers.
 pub fn papers_form(method: MethodName) -> Option<Form> {
@@ -88,6 +92,14 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
             format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
             format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
             "take longer steps or more samples a pass",
+        ));
+    }
+    let samples = u64::from(passes) * u64::from(sampling.samples_per_pass);
+    if samples > MOST_SAMPLES {
+        return Err(Error::usage(
+            format!("--passes {passes} --samples-per-pass {}", sampling.samples_per_pass),
+            format!("this is {samples} samples a ray, and at most {MOST_SAMPLES} are possible"),
+            "take fewer passes or fewer samples a pass",
         ));
     }
     let mut left_out = Vec::new();

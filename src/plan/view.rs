@@ -1,11 +1,11 @@
 //! What a view asks of a plan: the box as triangles, the pixels it covers, the longest ray.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
+use super::longest::longest_ray;
 use crate::error::Result;
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
-use crate::math::ray::{ViewRays, box_interval};
+use crate::math::ray::ViewRays;
 use crate::scene::Scene;
 
 /// A rectangle of pixels.
@@ -20,6 +20,14 @@ pub struct Region {
 impl Region {
     pub fn pixels(self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
+    }
+
+    pub fn columns(self) -> std::ops::Range<u32> {
+        self.x..self.x + self.width
+    }
+
+    pub fn rows(self) -> std::ops::Range<u32> {
+        self.y..self.y + self.height
     }
 }
 
@@ -92,20 +100,8 @@ fn covered(clip: &[[f32; 3]], size: [u32; 2]) -> Region {
 }
 
 fn longest_samples(scene: &Scene, rays: &ViewRays, region: Region) -> u32 {
-    let half = 0.5 * scene.field.extent();
+    let longest = longest_ray(rays, 0.5 * scene.field.extent(), region);
     let sampling = &scene.settings.sampling;
-    let longest = (region.y..region.y + region.height)
-        .into_par_iter()
-        .map(|row| {
-            (region.x..region.x + region.width)
-                .filter_map(|column| {
-                    let direction = rays.direction(column, row);
-                    let (enter, leave) = box_interval(rays.eye, direction, half, rays.near)?;
-                    Some((leave - enter) * direction.length())
-                })
-                .fold(0.0, f64::max)
-        })
-        .reduce(|| 0.0, f64::max);
     let steps = longest / (sampling.step * scene.field.finest());
     (steps - sampling.offset.steps()).ceil().max(0.0) as u32
 }

@@ -2,6 +2,9 @@
 
 use crate::scene::builtin::nearest;
 
+/// A user knows no `u32`.
+const COUNT: &str = "expected a whole number";
+
 /// Problem and remedy in a deserializer's message: ``unknown field `x`, expected one of `a`, `b` `` becomes
 /// "unknown key `x`" and "did you mean `a`? known are `a`, `b`"; other messages stay as they are.
 pub fn explain(message: &str) -> (String, String) {
@@ -14,5 +17,7 @@ pub fn explain(message: &str) -> (String, String) {
         let near = nearest(wrong, known.iter().copied()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
         return (format!("has the unknown {kind} `{wrong}`"), format!("{near}known are {}", known.join(", ")));
     }
+    let types = [("expected f64", "expected a number"), ("expected u32", COUNT), ("expected usize", COUNT)];
+    let message = types.iter().fold(message, |text, (said, meant)| text.replace(said, meant));
     (format!("is wrong: {message}"), "correct it".into())
 }

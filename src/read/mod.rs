@@ -65,7 +65,10 @@ pub fn volume(path: &Path, raw: Option<RawLayout>) -> Result<Volume> {
             None => {
                 let known: Vec<_> =
                     FORMATS.iter().map(|f| format!("{} (.{})", f.name, f.extensions.join(", ."))).collect();
-                let remedy = format!("give a file of {}, or dims and type for raw voxels", known.join(", "));
+                let remedy = format!(
+                    "give a file of {}, or dims and type for raw voxels; scene files end in .toml",
+                    known.join(", ")
+                );
                 let problem = format!("is of no known volume format ({length} bytes)");
                 return Err(Error::input(path.display(), problem, remedy));
             }

@@ -34,15 +34,20 @@ pub fn settings(path: &Path) -> Result<Settings> {
         let place = line.map_or(String::new(), |n| format!(", line {n}"));
         Error::input(format!("{}{place}", path.display()), problem, remedy)
     })?;
-    let base = path.parent().unwrap_or(Path::new(""));
-    for file in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
-        *file = base.join(&*file);
-    }
+    resolve(&mut settings, path);
     Ok(settings)
 }
 
+/// Makes paths that are relative to the file the settings stand in relative to the working folder.
+fn resolve(settings: &mut Settings, file: &Path) {
+    let base = file.parent().unwrap_or(Path::new(""));
+    for path in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
+        *path = base.join(&*path);
+    }
+}
+
 /// The settings of a run, from the JSON that `render --json` or `bench` wrote: its `settings`, or those of the
-/// only one of its `runs`. `FILE#INDEX` picks among several, counted from 0. Paths stay as the run had them.
+/// only one of its `runs`. `FILE#INDEX` picks among several, counted from 0. Paths are relative to the file.
 ///
 /// # Errors
 /// When the file cannot be read, holds no settings or wrong ones, or several runs and none is picked.
@@ -71,10 +76,12 @@ pub fn settings_from_json(path: &Path) -> Result<Settings> {
     let Some(settings) = run.get_mut("settings").map(Value::take) else {
         return bad("holds no `settings`".into(), "give the file that `render --json` or `bench` wrote".into());
     };
-    serde_json::from_value(settings).map_err(|e| {
+    let mut settings: Settings = serde_json::from_value(settings).map_err(|e| {
         let (problem, remedy) = super::keys::explain(&e.to_string());
         Error::input(format!("{}: settings", path.display()), problem, remedy)
-    })
+    })?;
+    resolve(&mut settings, &path);
+    Ok(settings)
 }
 
 /// The file and the number behind its `#`, unless a file has that very name.
@@ -106,39 +113,53 @@ fn check_ranges(settings: &Settings) -> Result<()> {
     };
     check(
         STEPS.contains(&sampling.step),
-        "sampling.step",
+        "sampling.step (--step)",
         sampling.step.to_string(),
         format!("give a number of voxels from {} to {}", STEPS.start(), STEPS.end()),
     )?;
     check(
         (1..=MAX_COUNT).contains(&sampling.samples_per_pass),
-        "sampling.samples_per_pass",
+        "sampling.samples_per_pass (--samples-per-pass)",
         sampling.samples_per_pass.to_string(),
         format!("give a number from 1 to {MAX_COUNT}"),
     )?;
     check(
         sampling.passes <= MAX_COUNT,
-        "sampling.passes",
+        "sampling.passes (--passes)",
         sampling.passes.to_string(),
         format!("give a number up to {MAX_COUNT}, or 0 for as many as the view needs"),
     )?;
     check(
         (0.0..=1.0).contains(&sampling.termination),
-        "sampling.termination",
+        "sampling.termination (--termination)",
         sampling.termination.to_string(),
         "give an opacity from 0 to 1 (1 ends no ray early)".into(),
     )?;
     check(
         settings.image.size.iter().all(|n| (1..=MAX_SIDE).contains(n)),
-        "image.size",
+        "image.size (--viewport)",
         format!("{:?}", settings.image.size),
         format!("give width and height from 1 to {MAX_SIDE} pixels"),
     )?;
     check(
         settings.image.background.iter().all(|c| (0.0..=1.0).contains(c)),
-        "image.background",
+        "image.background (--background)",
         format!("{:?}", settings.image.background),
         "give red, green and blue from 0 to 1".into(),
+    )?;
+    let reference = settings.transfer.reference;
+    check(
+        reference.is_finite() && reference > 0.0,
+        "transfer.reference (--reference)",
+        reference.to_string(),
+        "give a positive number of voxels".into(),
+    )?;
+    let range = settings.volume.range.unwrap_or_default();
+    check(
+        range.iter().all(|r| r.is_finite()) && range[0] <= range[1],
+        "volume.range (--range)",
+        format!("{range:?}"),
+        "give two finite numbers, the low one first".into(),
     )
 }
 

@@ -58,7 +58,12 @@ impl Field {
                 "repair them or choose nan = \"replace\" or \"hole\"",
             ));
         }
-        let values = (0..count).into_par_iter().map(|i| normalised(volume.voxels.get(i), low, high)).collect();
+        let mut values = Vec::new();
+        if values.try_reserve_exact(count).is_err() {
+            let problem = format!("finds no memory for {count} voxels in f32");
+            return Err(Error::input(&volume.name, problem, "use a smaller volume"));
+        }
+        values.par_extend((0..count).into_par_iter().map(|i| normalised(volume.voxels.get(i), low, high)));
         let mut field = Self { volume, range, values, holes: None };
         if bad > 0 && policy == NanPolicy::Hole {
             field.holes = Some(field.cells_where(|corner| !field.volume.voxels.get(corner).is_finite()));

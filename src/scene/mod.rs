@@ -3,6 +3,7 @@
 pub mod builtin;
 pub mod camera;
 pub mod field;
+mod fixed;
 pub mod settings;
 pub mod transfer;
 pub mod volume;

@@ -7,11 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::camera::Camera;
 use super::field::NanPolicy;
+use super::fixed;
 use super::volume::VoxelType;
 
 /// All keys of a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the sections of a scene file")]
 pub struct Settings {
     pub volume: VolumeSettings,
     pub transfer: TransferSettings,
@@ -22,7 +23,7 @@ pub struct Settings {
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [volume]")]
 pub struct VolumeSettings {
     /// A file, relative to the scene file.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,15 +32,15 @@ pub struct VolumeSettings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub builtin: Option<String>,
     /// The scalar range, in the volume's own values.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub range: Option<[f64; 2]>,
     pub nan: NanPolicy,
     /// Sizes, type and spacing of a raw file.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub dims: Option<[usize; 3]>,
     #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
     pub voxel_type: Option<VoxelType>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub spacing: Option<[f64; 3]>,
     pub texture: VolumeTexture,
 }
@@ -51,12 +52,14 @@ pub enum VolumeTexture {
     /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.
     #[default]
     Native,
+    /// 16 bits over the values there are.
     R16,
+    /// 32-bit float, exact.
     R32f,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [transfer]")]
 pub struct TransferSettings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
@@ -64,7 +67,7 @@ pub struct TransferSettings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
     /// Points [x, red, green, blue, opacity].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional_lists")]
     pub points: Option<Vec<[f64; 5]>>,
     /// The length an opacity stands for, in voxels of the finest spacing.
     pub reference: f64,
@@ -78,10 +81,13 @@ impl Default for TransferSettings {
 
 /// The camera; the default looks along -z at the whole volume (a front face of 428 of 500 pixels, the thesis').
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [camera]")]
 pub struct CameraSettings {
+    #[serde(deserialize_with = "fixed::list")]
     pub eye: [f64; 3],
+    #[serde(deserialize_with = "fixed::list")]
     pub target: [f64; 3],
+    #[serde(deserialize_with = "fixed::list")]
     pub up: [f64; 3],
     pub fov_y: f64,
 }
@@ -99,11 +105,13 @@ impl From<&CameraSettings> for Camera {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [image]")]
 pub struct ImageSettings {
     /// Width and height in pixels.
+    #[serde(deserialize_with = "fixed::list")]
     pub size: [u32; 2],
     /// Linear light; shows in PNG files where the picture is not opaque.
+    #[serde(deserialize_with = "fixed::list")]
     pub background: [f64; 3],
     pub accumulate: Accumulate,
 }
@@ -125,7 +133,7 @@ pub enum Accumulate {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [sampling]")]
 pub struct SamplingSettings {
     /// Distance between samples, in voxels of the finest spacing.
     pub step: f64,
@@ -163,6 +171,7 @@ pub enum Offset {
     /// At its begin, as the papers do.
     #[default]
     Left,
+    /// In its middle.
     Midpoint,
 }
 
@@ -210,7 +219,7 @@ pub enum Filter {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "the section [method]")]
 pub struct MethodSettings {
     pub name: MethodName,
     pub cull: Cull,

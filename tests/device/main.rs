@@ -1,5 +1,6 @@
 //! Tests that need a Vulkan device, in one program with a harness of its own: one folder or file for each module.
 
+mod cli;
 mod formulas;
 mod frame;
 mod harness;
@@ -9,5 +10,5 @@ mod vulkan;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    harness::run([formulas::tests(), vulkan::tests(), frame::tests()].into_iter().flatten().collect())
+    harness::run([formulas::tests(), vulkan::tests(), frame::tests(), cli::tests()].into_iter().flatten().collect())
 }

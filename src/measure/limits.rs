@@ -1,0 +1,66 @@
+//! Whether a scene fits, asked before anything large is made for it.
+
+use crate::error::{Error, Result};
+use crate::pass::resource::Resource;
+use crate::plan::{Plan, bytes_per_pixel};
+use crate::scene::Scene;
+use crate::vulkan::DeviceInfo;
+
+/// Bytes a pixel takes on the host at the most: the frame in f64 twice, the picture in f32, the encoded file.
+const HOST_BYTES: u64 = 128;
+
+/// Whether the device takes pictures and volumes of this size.
+///
+/// # Errors
+/// When a limit of the device, which is named, is exceeded.
+pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()> {
+    let picture =
+        |problem| Err(Error::device(picture_name(scene), problem, "choose a smaller picture or another device"));
+    let [width, height] = info.max_viewport.map(|side| side.min(info.max_image_2d));
+    let size = scene.settings.image.size;
+    if size[0] > width || size[1] > height {
+        return picture(format!("{} allows at most {width}x{height} pixels", info.name));
+    }
+    let mut resources: Vec<Resource> = plan.steps.iter().flat_map(|s| &s.accesses).map(|a| a.resource).collect();
+    resources.sort();
+    resources.dedup();
+    let accumulate = scene.settings.image.accumulate;
+    let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, accumulate)).sum();
+    let (needed, there) = (per_pixel * pixels(scene), info.memory_bytes);
+    if needed > there {
+        return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));
+    }
+    let volume = &scene.field.volume;
+    let limit = info.max_image_3d;
+    if resources.contains(&Resource::Volume) && volume.dims.iter().any(|&n| n > limit as usize) {
+        return Err(Error::device(
+            &volume.name,
+            format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name),
+            "use a smaller volume, another device, or --method cpu",
+        ));
+    }
+    Ok(())
+}
+
+/// Whether there is memory for the pictures.
+///
+/// # Errors
+/// When there is not.
+pub fn check_host(scene: &Scene) -> Result<()> {
+    let needed = HOST_BYTES * pixels(scene);
+    let reserved = usize::try_from(needed).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
+    if reserved {
+        return Ok(());
+    }
+    let problem = format!("takes {} MiB of memory, which are not to be had", needed >> 20);
+    Err(Error::usage(picture_name(scene), problem, "choose a smaller picture"))
+}
+
+fn pixels(scene: &Scene) -> u64 {
+    scene.settings.image.size.map(u64::from).iter().product()
+}
+
+fn picture_name(scene: &Scene) -> String {
+    let [width, height] = scene.settings.image.size;
+    format!("image.size (--viewport) {width}x{height}")
+}

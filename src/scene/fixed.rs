@@ -1,0 +1,30 @@
+//! Lists of a fixed length in a scene file. TOML's deserializer takes the first entries of a longer list and drops the
+//! rest in silence; here any other length is refused.
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+
+/// Exactly `N` entries.
+pub fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(from: D) -> Result<[T; N], D::Error> {
+    exactly(Vec::deserialize(from)?)
+}
+
+/// Exactly `N` entries, or nothing.
+pub fn optional<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
+    from: D,
+) -> Result<Option<[T; N]>, D::Error> {
+    Option::deserialize(from)?.map(exactly).transpose()
+}
+
+/// Any number of lists of exactly `N` entries, or nothing.
+pub fn optional_lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
+    from: D,
+) -> Result<Option<Vec<[T; N]>>, D::Error> {
+    let lists: Option<Vec<Vec<T>>> = Option::deserialize(from)?;
+    lists.map(|lists| lists.into_iter().map(exactly).collect()).transpose()
+}
+
+fn exactly<T, E: Error, const N: usize>(entries: Vec<T>) -> Result<[T; N], E> {
+    let count = entries.len();
+    entries.try_into().map_err(|_| E::custom(format!("{count} entries where there have to be {N}")))
+}

@@ -1,0 +1,128 @@
+//! What is written where: pictures, JSON, plans; and that a run can be repeated from it.
+
+use std::process::Stdio;
+
+use crate::program::{Ended, npy};
+use crate::{SMALL, driverless};
+
+#[test]
+fn rejects_places_that_cannot_be_written() {
+    let place = driverless();
+    place.file("file", "x");
+    place.file("old.png", "as it was");
+    std::fs::create_dir(place.path().join("dir.png")).unwrap();
+    place.refused(&format!("{SMALL} -o no/a.png"), 6, &["no/a.png", "no folder no", "make it"]);
+    place.refused(&format!("{SMALL} -o file/a.png"), 6, &["file/a.png", "no folder file"]);
+    place.refused(&format!("{SMALL} -o dir.png"), 6, &["dir.png", "is a folder"]);
+    place.refused(&format!("{SMALL} -o a.png --json no/a.json"), 6, &["no/a.json", "no folder no"]);
+    place.refused(&format!("{SMALL} -o a.gif"), 2, &["a.gif", ".gif", ".png, .exr or .npy"]);
+    place.refused(&format!("{SMALL} -o a"), 2, &["a: ", "no extension"]);
+    place.refused(&format!("{SMALL} -o - --json -"), 2, &["standard output", "picture and the JSON"]);
+    place.refused("plan --json no/a.json", 6, &["no/a.json"]);
+    place.refused("bench --method cpu -o file", 6, &["file", "choose another folder"]);
+    place.refused("bench --method cpu -o file/below", 6, &["file/below"]);
+    // No driver: the run fails after its outputs were found good, and leaves them as they were.
+    place.refused("render -o old.png", 4, &["driver"]);
+    place.refused("bench -o new/folder", 4, &["driver"]);
+    place.refused("bench builtin:shells:16 missing.nrrd --method cpu -o new", 3, &["missing.nrrd"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_and_a_reader_that_left_is_none() {
+    let place = driverless();
+    let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for arguments in ["plan", &format!("{SMALL} -o -")] {
+        let ended = Ended::of(place.command(arguments).stdout(full()).output().unwrap());
+        assert_eq!(ended.code, Some(6), "{}", ended.err);
+        assert!(ended.err.starts_with("error: standard output: cannot be written"), "{}", ended.err);
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let ended = Ended::of(place.command(arguments).stdout(writer).stderr(Stdio::piped()).output().unwrap());
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        assert!(!ended.err.contains("error:") && !ended.err.contains("panicked"), "{}", ended.err);
+    }
+    // Nobody reads the table; the picture is written all the same.
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = place.command(&format!("{SMALL} -o a.npy")).stderr(writer).status().unwrap();
+    assert!(status.success());
+    assert_eq!(npy(&place.read("a.npy")).0, [12, 8]);
+}
+
+#[test]
+fn plan_needs_no_device_and_its_json_says_the_steps() {
+    let place = driverless();
+    let text = place.done("plan builtin:shells:16 --viewport 20x10 --json plan.json").text();
+    let json = place.json("plan.json");
+    assert_eq!(json["method"], "nn-omni");
+    let steps = json["steps"].as_array().unwrap();
+    assert!(steps.iter().all(|s| text.contains(s["name"].as_str().unwrap())));
+    assert_eq!(steps.iter().filter(|s| s["group"] == "main").count() as u64, json["passes"].as_u64().unwrap());
+    // On standard output the JSON stands alone.
+    let same: serde_json::Value =
+        serde_json::from_slice(&place.done("plan builtin:shells:16 --viewport 20x10 --json -").out).unwrap();
+    assert_eq!(same, json);
+}
+
+#[test]
+fn plans_of_the_largest_pictures_and_the_most_passes_are_quick() {
+    let place = driverless();
+    let begin = std::time::Instant::now();
+    let text = place.done("plan --viewport 65535x65535 --samples-per-pass 100").text();
+    assert!(text.contains("of 65535 x 65535"), "{text}");
+    place.done("plan --passes 65536 --samples-per-pass 32768");
+    assert!(begin.elapsed().as_secs() < 30, "{:?}", begin.elapsed());
+}
+
+#[test]
+fn pictures_are_what_their_formats_say() {
+    let place = driverless();
+    for name in ["a.png", "a.exr", "a.npy"] {
+        place.done(&format!("{SMALL} -o {name}"));
+    }
+    let (size, floats) = npy(&place.read("a.npy"));
+    assert_eq!(size, [12, 8]);
+    let exr = image::open(place.path().join("a.exr")).unwrap().into_rgba32f();
+    assert_eq!((exr.dimensions(), exr.as_raw()), ((12, 8), &floats));
+    let png = image::open(place.path().join("a.png")).unwrap();
+    assert_eq!((png.width(), png.height(), png.color()), (12, 8, image::ColorType::Rgb8));
+    assert_eq!(npy(&place.done(&format!("{SMALL} -o -.npy")).out).1, floats);
+    assert_eq!(place.done(&format!("{SMALL} -o -")).out, place.read("a.png"));
+
+    // Row 0 is on top.
+    place.file("ramp.raw", [0, 0, 0, 0, 255, 255, 255, 255]);
+    place.done("render ramp.raw --dims 2,2,2 --type u8 --up 0,0,1 --eye 0,3,0 --viewport 8x8 --method cpu -o up.npy");
+    let rows: Vec<f32> = npy(&place.read("up.npy")).1.chunks(8 * 4).map(|row| row.iter().sum()).collect();
+    assert!(rows[2] > rows[5], "z is up and the volume brighter there: {rows:?}");
+}
+
+#[test]
+fn the_same_settings_give_the_same_bits() {
+    let place = driverless();
+    let render = || place.done(&format!("{SMALL} -o -.npy")).out;
+    assert_eq!(render(), render());
+}
+
+#[test]
+fn a_run_is_repeated_from_its_json_in_any_folder() {
+    let place = driverless();
+    for folder in ["data", "out", "elsewhere"] {
+        std::fs::create_dir(place.path().join(folder)).unwrap();
+    }
+    place.file("data/a.raw", (0..27).map(|i| i * 9).collect::<Vec<u8>>());
+    place.file("data/map.json", r#"{"points": [[0, 1, 0, 0, 0.1], [1, 0, 1, 1, 0.6]]}"#);
+    let options = "--dims 3,3,3 --type u8 --tf data/map.json --viewport 9x7 --step 0.3 --method cpu";
+    place.done(&format!("render data/a.raw {options} -o first.npy --json out/run.json"));
+    assert_eq!(place.json("out/run.json")["settings"]["volume"]["path"], "../data/a.raw");
+    place.done("render --from out/run.json -o second.npy");
+    let mut command = place.command("render --from ../out/run.json -o ../third.npy");
+    command.current_dir(place.path().join("elsewhere"));
+    let third = Ended::of(command.output().unwrap());
+    assert_eq!(third.code, Some(0), "{}", third.err);
+    assert_eq!(place.read("first.npy"), place.read("second.npy"));
+    assert_eq!(place.read("first.npy"), place.read("third.npy"));
+    // An option given wins.
+    place.done("render --from out/run.json --viewport 5x4 -o fourth.npy");
+    assert_eq!(npy(&place.read("fourth.npy")).0, [5, 4]);
+}

@@ -1,0 +1,266 @@
+//! The command line on a device: pictures, counts, benches, and what a device refuses.
+
+mod extremes;
+#[path = "../../cli/program.rs"]
+mod program;
+
+use std::sync::Arc;
+
+use depthleap::vulkan::Device;
+use program::{Ended, Place, npy};
+use serde_json::Value;
+
+use crate::harness::{Need, Test, data, test};
+
+const METHODS: [&str; 5] = ["rc", "rc-ert", "rc-block", "nn-omni", "cpu"];
+const SMALL: &str = "builtin:shells:24 --azimuth 31 --elevation 17 --viewport 24x18";
+
+pub fn tests() -> Vec<Test> {
+    let mut tests = vec![
+        test("volume beyond the device's limit is refused", volume_beyond_the_limit),
+        test("viewport beyond the device's limit is refused", viewport_beyond_the_limit),
+        test("unknown device is refused with those there are", unknown_device),
+        test("cull bounds is refused without depth bounds", bounds_without_the_feature).needs(Need::NoDepthBounds),
+        test("a form the method has not is refused", unknown_form),
+        test("an output is kept when a run fails", failing_runs_change_nothing),
+        test("info writes JSON", info_writes_json),
+        test("render writes every key of a run", render_writes_every_key),
+        test("the same settings give the same bits", same_settings_same_bits),
+        test("all three picture formats hold the same floats", formats_agree),
+        test("a run of a bench is repeated bit for bit", bench_runs_repeat),
+        test("bench writes one row a run and the keys of render", bench_writes_rows),
+        test("validation finds nothing", validation_finds_nothing),
+        test("voxels that are no numbers give finite pictures", policies_agree),
+        test("cull bounds gives the picture of ztest", bounds_and_ztest_agree).needs(Need::DepthBounds),
+        test("both early ends give one picture", early_ends_agree).needs(Need::Conditional),
+        test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
+    ];
+    tests.extend(extremes::tests());
+    tests.into_iter().map(|test| test.within("cli")).collect()
+}
+
+fn volume_beyond_the_limit(device: &Arc<Device>) {
+    let place = Place::new();
+    let side = device.info.max_image_3d + 1;
+    place.file("a.raw", vec![7; side as usize]);
+    let (size, limit) = (format!("[1, 1, {side}]"), format!("at most {} a side", device.info.max_image_3d));
+    let arguments = format!("a.raw --dims 1,1,{side} --type u8 --spacing 1000,1000,1 --azimuth 70 --viewport 24x18");
+    for method in &METHODS[..4] {
+        let render = format!("render {arguments} --method {method} -o a.png");
+        place.refused(&render, 4, &["a.raw", &size, &device.info.name, &limit, "smaller volume"]);
+    }
+    // The second of two scenes is found wrong before the first is run.
+    place.file(
+        "a.toml",
+        format!("[volume]\npath = \"a.raw\"\ndims = [1, 1, {side}]\ntype = \"u8\"\nspacing = [1000, 1000, 1]"),
+    );
+    place.refused("bench builtin:shells:16 a.toml --azimuth 70 -o out", 4, &["a.raw", &limit]);
+    place.done(&format!("render {arguments} --method cpu -o a.npy"));
+}
+
+fn viewport_beyond_the_limit(device: &Arc<Device>) {
+    let place = Place::new();
+    let limit = device.info.max_viewport[0].min(device.info.max_image_2d);
+    for size in [format!("{}x1", limit + 1), "40000x40000".to_owned(), "65535x65535".to_owned()] {
+        let parts = [&format!("--viewport) {size}"), &device.info.name, &format!("at most {limit}x")];
+        place.refused(&format!("render --viewport {size} -o a.png"), 4, &parts.map(String::as_str));
+    }
+}
+
+fn unknown_device(device: &Arc<Device>) {
+    let place = Place::new();
+    for wanted in ["nonesuch", "77"] {
+        let parts = [wanted, "no device has that index or name", &device.info.name, "choose another"];
+        place.refused(&format!("render {SMALL} --device {wanted} -o a.png"), 4, &parts);
+    }
+}
+
+fn bounds_without_the_feature(device: &Arc<Device>) {
+    let place = Place::new();
+    for arguments in ["render -o a.png --cull bounds", "bench -o out --method nn-omni --cull bounds --mark copy"] {
+        place.refused(arguments, 4, &["--cull bounds", &device.info.name, "no depth bounds test", "--cull ztest"]);
+    }
+}
+
+fn unknown_form(_: &Arc<Device>) {
+    let place = Place::new();
+    let parts = ["--cull ztest --mark fragdepth", "nn-omni has no such form", "ztest+copy"];
+    place.refused("render --cull ztest --mark fragdepth -o a.png", 2, &parts);
+}
+
+fn failing_runs_change_nothing(_: &Arc<Device>) {
+    let place = Place::new();
+    place.file("a.png", "as it was");
+    place.refused("render --viewport 65535x65535 -o a.png --json a.json", 4, &["--viewport"]);
+    place.refused("bench builtin:shells:16 --viewport 65535x1 -o out/below", 4, &["--viewport"]);
+}
+
+fn info_writes_json(device: &Arc<Device>) {
+    let place = Place::new();
+    let text = place.done("info --json info.json").text();
+    assert!(text.contains(&device.info.name), "{text}");
+    let json = place.json("info.json");
+    let mine = &json["devices"][device.info.index];
+    assert_eq!(mine["name"], device.info.name.as_str());
+    assert_eq!(mine["depth_bounds"], device.info.depth_bounds);
+    assert!(mine["self_check"]["ztest+copy"].is_string() && mine["auto"].is_string(), "{mine}");
+    let same: Value = serde_json::from_slice(&place.done("info --json -").out).unwrap();
+    assert_eq!(same, json);
+}
+
+/// The keys of every run: those of DESIGN.md and what was added to them.
+const KEYS: &str = "build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver error fragments frame_ms \
+                    frame_ms_stats gpu_ms gpu_ms_per_pass ideal invocations left_out mark memory method notes passes plan \
+                    record_ms record_ms_stats scene self_check settings version view";
+
+fn keys(run: &Value) -> Vec<&str> {
+    run.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+fn render_writes_every_key(_: &Arc<Device>) {
+    let place = Place::new();
+    for method in METHODS {
+        let ended = place.done(&format!("render {SMALL} --method {method} --reference-error -o a.png --json a.json"));
+        assert!(ended.out.is_empty() && ended.err.contains(method), "{}", ended.err);
+        let run = place.json("a.json");
+        let mut found = keys(&run);
+        found.sort_unstable();
+        assert_eq!(found, KEYS.split_whitespace().collect::<Vec<_>>(), "{method}");
+        assert_eq!((&run["version"], &run["method"]), (&Value::from(1), &Value::from(method)));
+        let passes = run["passes"].as_u64().unwrap() as usize;
+        for list in ["main_per_pass", "intermediate_per_pass"] {
+            let counts = run["fragments"][list].as_array().unwrap();
+            let total = &run["fragments"][list.trim_end_matches("_per_pass")];
+            assert_eq!(
+                (counts.len(), counts.iter().map(|c| c.as_u64().unwrap()).sum()),
+                (passes, total.as_u64().unwrap())
+            );
+        }
+        assert!(run["error"]["max"].as_f64().unwrap() < 0.02 && run["error"]["rmse"].is_number(), "{}", run["error"]);
+        assert_eq!(run["ideal"]["main"].is_u64(), method != "rc");
+        assert!(run["frame_ms"].is_number() && run["frame_ms_stats"]["n"].is_u64());
+        if method != "cpu" {
+            let parts = [&run["gpu_ms"]["total"], &run["gpu_ms"]["main"], &run["gpu_ms"]["main_stats"]["mad"]];
+            assert!(run["gpu_ms"].is_null() || parts.iter().all(|p| p.is_number()), "{}", run["gpu_ms"]);
+        }
+        assert_eq!(run["build_ms"].is_number(), ["rc-block", "nn-omni"].contains(&method));
+        assert!(run["left_out"].as_array().unwrap().iter().all(|l| l["what"].is_string() && l["why"].is_string()));
+    }
+}
+
+fn same_settings_same_bits(_: &Arc<Device>) {
+    let place = Place::new();
+    for method in METHODS {
+        let render = || place.done(&format!("render {SMALL} --method {method} -o -.npy")).out;
+        assert_eq!(render(), render(), "{method}");
+    }
+}
+
+fn formats_agree(_: &Arc<Device>) {
+    let place = Place::new();
+    for name in ["a.png", "a.exr", "a.npy"] {
+        place.done(&format!("render {SMALL} -o {name}"));
+    }
+    let (size, floats) = npy(&place.read("a.npy"));
+    let exr = image::open(place.path().join("a.exr")).unwrap().into_rgba32f();
+    assert_eq!((size, exr.dimensions()), ([24, 18], (24, 18)));
+    assert_eq!(exr.as_raw(), &floats);
+    assert!(floats.iter().any(|f| *f > 0.1));
+    assert_eq!(image::image_dimensions(place.path().join("a.png")).unwrap(), (24, 18));
+}
+
+fn bench_runs_repeat(_: &Arc<Device>) {
+    let place = Place::new();
+    std::fs::create_dir(place.path().join("data")).unwrap();
+    place.file("data/a.raw", (0..512_u32).map(|i| (i * 37 % 256) as u8).collect::<Vec<_>>());
+    let options = "--dims 8,8,8 --type u8 --viewport 20x16 --azimuth 20";
+    place.done(&format!("bench data/a.raw {options} --repeats 1 -o out"));
+    let runs = place.json("out/results.json")["runs"].as_array().unwrap().clone();
+    for (i, run) in runs.iter().enumerate() {
+        let method = run["method"].as_str().unwrap();
+        place.done(&format!("render data/a.raw {options} --method {method} -o first.npy"));
+        place.done(&format!("render --from out/results.json#{i} -o second.npy --json again.json"));
+        assert_eq!(place.read("first.npy"), place.read("second.npy"), "{method}");
+        assert_eq!(place.json("again.json")["fragments"], run["fragments"], "{method}");
+    }
+}
+
+fn bench_writes_rows(_: &Arc<Device>) {
+    let place = Place::new();
+    let table =
+        place.done("bench builtin:shells:16 builtin:jets:24 --forms all --repeats 2 --viewport 16x16 -o a/b").text();
+    let json = place.json("a/b/results.json");
+    let runs = json["runs"].as_array().unwrap();
+    place.done("render builtin:shells:16 --viewport 16x16 -o a.png --json a.json");
+    let one = place.json("a.json");
+    assert!(runs.iter().all(|run| keys(run) == keys(&one)));
+    assert!(runs.iter().all(|run| run["frame_ms_stats"]["n"] == 2 && run["error"]["max"].is_number()));
+    let mut rows = csv::Reader::from_path(place.path().join("a/b/results.csv")).unwrap();
+    let column = |name: &str, rows: &csv::StringRecord| rows.iter().position(|c| c == name).unwrap();
+    let (scene, cull) = (column("scene", rows.headers().unwrap()), column("cull", rows.headers().unwrap()));
+    let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), runs.len());
+    for (row, run) in rows.iter().zip(runs) {
+        assert_eq!(&row[scene], run["scene"].as_str().unwrap());
+        assert_eq!(&row[cull], run["cull"].as_str().unwrap_or_default());
+        assert!(table.contains(run["scene"].as_str().unwrap()));
+    }
+    assert!(place.read("a/b/report.html").starts_with(b"<!DOCTYPE html>"));
+    let mut files: Vec<_> =
+        std::fs::read_dir(place.path().join("a/b")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["report.html", "results.csv", "results.json"], "a temporary file was left behind");
+}
+
+fn validation_finds_nothing(_: &Arc<Device>) {
+    let place = Place::new();
+    for method in &METHODS[..4] {
+        place.done(&format!("render {SMALL} --method {method} --validate -o a.png"));
+    }
+}
+
+fn policies_agree(_: &Arc<Device>) {
+    let place = Place::new();
+    let mut floats: Vec<f32> = (0..216).map(|i| (i % 11) as f32 / 11.0).collect();
+    (floats[50], floats[90], floats[120]) = (f32::NAN, f32::INFINITY, f32::NEG_INFINITY);
+    place.file("a.raw", floats.iter().flat_map(|f| f.to_le_bytes()).collect::<Vec<_>>());
+    for policy in ["replace", "hole"] {
+        let arguments =
+            format!("a.raw --dims 6,6,6 --type f32 --nan {policy} --azimuth 31 --elevation 17 --viewport 24x18");
+        let picture = |method: &str| {
+            let ended: Ended = place.done(&format!("render {arguments} --method {method} --filter exact -o -.npy"));
+            npy(&ended.out).1
+        };
+        let rule = picture("cpu");
+        for method in ["rc-ert", "rc-block", "nn-omni"] {
+            let off = picture(method).iter().zip(&rule).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(off < 1e-5, "{policy} {method}: {off}");
+        }
+    }
+}
+
+fn bounds_and_ztest_agree(_: &Arc<Device>) {
+    let place = Place::new();
+    let picture = |cull: &str| place.done(&format!("render {SMALL} --cull {cull} --mark copy -o -.npy")).out;
+    assert_eq!(picture("bounds"), picture("ztest"));
+}
+
+fn early_ends_agree(_: &Arc<Device>) {
+    let place = Place::new();
+    let picture = |way: &str| {
+        let options = format!("--samples-per-pass 1 --early-end {way} -o {way}.npy --json {way}.json");
+        place.done(&format!("render {SMALL} {options}"));
+        (place.read(&format!("{way}.npy")), place.json(&format!("{way}.json"))["fragments"].clone())
+    };
+    assert_eq!(picture("conditional"), picture("readback"));
+}
+
+/// Fragments of the front view at 500 x 500 with 8 samples a pass; 183,184 pixels are covered, as in [Thesis §5.6].
+fn fuel_counts(_: &Arc<Device>) {
+    let place = Place::new();
+    let volume = data("fuel.nrrd");
+    place.done(&format!("render {} --method rc-block -o a.npy --json a.json", volume.display()));
+    let fragments = &place.json("a.json")["fragments"];
+    assert_eq!(fragments["main_per_pass"][0], 183_184);
+    assert!(npy(&place.read("a.npy")).1.iter().all(|f| f.is_finite()));
+}
