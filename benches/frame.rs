@@ -27,7 +27,7 @@ fn main() -> depthleap::Result<()> {
     let checked = Checked { check: self_check(&device)?, device, early_end: None };
     for (name, settings) in scenes() {
         let methods = METHODS.map(|name| MethodSettings { name, ..MethodSettings::default() });
-        let mut runner = Runner::new(&checked, read::scene(&settings)?, name);
+        let mut runner = Runner::new(Some(&checked), read::scene(&settings)?, name);
         let measured = runner.measure(&methods, EFFORT, &|_| {})?;
         print(&measured.into_iter().map(|one| one.run).collect::<Vec<_>>());
     }
