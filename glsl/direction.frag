@@ -1,5 +1,6 @@
 // Pass 2, ray direction determination [KW03 §2.1, Thesis §5.2.2]: back faces of the box, normalize(exit - entry)
-// in colour and the length in alpha, both in volume space.
+// in colour and the length in alpha, both in volume space. Each is the f32 nearest to the true number: samples far
+// along the ray magnify an error made here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -15,14 +16,21 @@ void main() {
     vec2 pixel = gl_FragCoord.xy;
     Interval interval = box_interval(pixel);
     vec3 begin = texelFetch(entry, ivec2(pixel), 0).xyz;
-    vec3 way;
+    vec2 way[3];
+    vec2 square = vec2(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         vec2 end = texture_coordinate(pixel, interval.leave, axis, interval.leave_axis, true);
         vec2 difference = df_add(end, vec2(-begin[axis], 0.0));
-        vec2 scaled = df_multiply(difference, vec2(frame.extent[0][axis], frame.extent[1][axis]));
-        way[axis] = scaled.x + scaled.y;
+        way[axis] = df_multiply(difference, vec2(frame.extent[0][axis], frame.extent[1][axis]));
+        square = df_add(square, df_multiply(way[axis], way[axis]));
     }
-    float size = length(way);
-    bool hits = df_less(interval.enter, interval.leave) && size > 0.0;
-    direction = hits ? vec4(way / size, size) : vec4(0.0);
+    bool hits = df_less(interval.enter, interval.leave) && square.x > 0.0;
+    direction = vec4(0.0);
+    if (hits) {
+        vec2 size = df_sqrt(square);
+        for (int axis = 0; axis < 3; ++axis) {
+            direction[axis] = df_divide(way[axis], size).x;
+        }
+        direction.w = size.x;
+    }
 }

@@ -12,8 +12,8 @@
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
+#include "shared/double_float.glsl"
 #include "shared/samples.glsl"
-#include "shared/cell.glsl"
 #include "shared/volume.glsl"
 #include "shared/transfer.glsl"
 #include "shared/opacity.glsl"
@@ -36,11 +36,10 @@ float extent_of_sample(Ray ray, uint i) {
 
 // Premultiplied colour of sample `i`.
 vec4 shade_sample(Ray ray, uint i) {
-    vec3 position = sample_position(ray, i);
-    if (in_hole(position)) {
+    if (in_hole(ray, i)) {
         return vec4(0.0);
     }
-    vec4 color = classify(sample_volume(position));
+    vec4 color = classify(sample_volume(ray, i));
     float steps = extent_of_sample(ray, i);
     color.a = CORRECT_OPACITY ? corrected_opacity(color.a, frame.exponent * steps) : min(color.a * steps, 1.0);
     return vec4(color.rgb * color.a, color.a);

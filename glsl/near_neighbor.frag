@@ -16,8 +16,8 @@
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
 #include "shared/mark.glsl"
+#include "shared/double_float.glsl"
 #include "shared/samples.glsl"
-#include "shared/cell.glsl"
 #include "shared/section.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
@@ -33,7 +33,7 @@ float decide(Ray ray) {
     if (first >= ray.samples || saturated) {
         return DEAD;
     }
-    float free = float(texelFetch(nearest_distance, cell_at(sample_position(ray, first)), 0).r);
+    float free = float(texelFetch(nearest_distance, cell_of(sample_place(ray, first)), 0).r);
     uint next = pass + passes_skipped(free);
     bool gone = next >= frame.passes || (EXIT_LOOKAHEAD && next * SAMPLES_PER_PASS >= ray.samples);
     return gone ? DEAD : section_depth(next, next == pass);

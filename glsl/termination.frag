@@ -10,6 +10,7 @@
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
+#include "shared/double_float.glsl"
 #include "shared/samples.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D accumulated;

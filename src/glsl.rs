@@ -1,7 +1,7 @@
 //! The program's SPIR-V modules by name.
 //!
 //! `tools/build.rs` compiles all of `glsl/` while building, so that the program needs no shader compiler. With the
-//! feature `runtime-shaders` and [`set_directory`] the same compiler runs on each request instead, for people who
+//! feature `runtime-shaders` and `set_directory` the same compiler runs on each request instead, for people who
 //! change a shader and want to see what happens.
 
 #[cfg(feature = "runtime-shaders")]
@@ -22,7 +22,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     MODULES.iter().map(|(name, _)| *name)
 }
 
-/// The SPIR-V words of the module `name`, from the directory of [`set_directory`] where one is set.
+/// The SPIR-V words of the module `name`, from the directory of `set_directory` where one is set.
 ///
 /// # Errors
 /// A name that is not among [`names`], with the one most like it; a shader in that directory that does not

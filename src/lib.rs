@@ -4,7 +4,7 @@
 //!
 //! 1. [`scene`]: what is to be seen: volume, transfer function, camera, sampling, method. Knows no Vulkan.
 //! 2. [`plan`]: scene to a flat list of steps anyone can print, with what was left out and why.
-//! 3. [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`reference`].
+//! 3. [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`mod@reference`].
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
 //!

@@ -86,8 +86,16 @@ fn compile_all(root: &Path, modules: &[compile::Module]) -> Vec<Result<compile::
 
 /// The commit that is built, for the results file; `unknown` outside a checkout.
 fn commit() -> String {
-    println!("cargo:rerun-if-changed=.git/logs/HEAD");
-    let output = std::process::Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output();
-    let text = output.ok().filter(|o| o.status.success()).and_then(|o| String::from_utf8(o.stdout).ok());
-    text.map_or_else(|| "unknown".to_owned(), |t| t.trim().to_owned())
+    // A file that is not there would bring the script back each time, and in a worktree it lies elsewhere.
+    if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists()) {
+        println!("cargo:rerun-if-changed={log}");
+    }
+    git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned())
+}
+
+/// What git says, where it says anything.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = std::process::Command::new("git").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
+    Some(text.trim().to_owned())
 }

@@ -1,8 +1,7 @@
 // Double-float arithmetic: a number is vec2(high, low), their unevaluated sum, about 48 significant bits.
 // Rays are set up in it once a pixel, so that sample positions are as good as an f32 can hold them.
-// Source: Dekker 1971 (split, product), Knuth TAOCP vol. 2 (two-sum). Not by fma: some drivers, Mesa's lavapipe among
-// them, round its product, and the error that is asked for comes out 0.
-// `precise` keeps a compiler from simplifying the error terms away.
+// Source: Dekker 1971, Knuth TAOCP vol. 2 (two-sum). Products are Dekker's too, since `fma` need not be fused and on
+// some drivers is not. `precise` keeps a compiler from simplifying the error terms away.
 
 vec2 two_sum(float a, float b) {
     precise float sum = a + b;
@@ -12,21 +11,19 @@ vec2 two_sum(float a, float b) {
     return vec2(sum, error);
 }
 
-// Two halves of at most 12 bits, whose products are exact.
-vec2 split(float a) {
-    const float SHIFT = 4097.0; // 2^12 + 1
-    precise float shifted = SHIFT * a;
-    precise float rest = shifted - a;
-    precise float high = shifted - rest;
-    precise float low = a - high;
-    return vec2(high, low);
+// The leading bits of a number, all but the last `cleared` of its 24.
+float leading(float a, int cleared) {
+    return uintBitsToFloat(floatBitsToUint(a) & (0xffffffffu << cleared));
 }
 
+// Halves of 12 bits, whose products are exact.
 vec2 two_product(float a, float b) {
-    vec2 p = split(a);
-    vec2 q = split(b);
+    precise float a_high = leading(a, 12);
+    precise float b_high = leading(b, 12);
+    precise float a_low = a - a_high;
+    precise float b_low = b - b_high;
     precise float product = a * b;
-    precise float error = ((p.x * q.x - product) + p.x * q.y + p.y * q.x) + p.y * q.y;
+    precise float error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
     return vec2(product, error);
 }
 
@@ -48,6 +45,13 @@ vec2 df_divide(vec2 a, vec2 b) {
     vec2 rest = df_add(a, -df_multiply(vec2(first, 0.0), b));
     float second = rest.x / b.x;
     return two_sum(first, second);
+}
+
+// Of a positive number: the root of the high part, and one step of Newton's for what it leaves.
+vec2 df_sqrt(vec2 a) {
+    float first = sqrt(a.x);
+    vec2 rest = df_add(a, -two_product(first, first));
+    return two_sum(first, rest.x / (2.0 * first));
 }
 
 bool df_less(vec2 a, vec2 b) {

@@ -14,12 +14,13 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     // Sides of the volume in volume space, and their inverses.
     vec4 extent[2];
     vec4 inverse_extent[2];
+    // Distance between samples in voxels, for a ray along each axis.
+    vec4 voxel_step[2];
     // Voxels along each side.
     vec4 dims;
     // Rays begin at this depth in front of the eye, volume units.
     float near;
-    // Distance between samples, volume units, and its inverse.
-    float step_length;
+    // Samples in a volume unit.
     float inverse_step;
     // Where in its step a sample is taken, in steps.
     float offset;

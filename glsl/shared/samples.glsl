@@ -1,13 +1,22 @@
-// Samples along a ray: how many and where. Twin: src/reference/samples.rs. Needs frame.glsl.
+// Samples along a ray: how many and where. Twin: src/reference/samples.rs. Needs frame.glsl and double_float.glsl.
 
 layout(set = 0, binding = 1) uniform sampler2D entry;
 layout(set = 0, binding = 2) uniform sampler2D direction;
 
+// Bits cleared of a part of a step: 9 are left, so that their product with up to 2^15 steps is exact.
+const int STRIDE_CLEARED = 15;
+
 struct Ray {
-    // Texture coordinates of the entry point.
+    // Texture coordinates of the entry point, and from one sample to the next.
     vec3 entry;
-    // From one sample to the next, texture coordinates.
     vec3 step_vector;
+    // The same in voxels from the first voxel's centre, beyond the digits of one f32: the entry as whole voxels and
+    // what is left, the step as a sum of three, of which the first two have few enough bits to be multiplied exactly.
+    vec3 whole;
+    vec3 part;
+    vec3 stride_high;
+    vec3 stride_middle;
+    vec3 stride_rest;
     // Length inside the volume, in steps.
     float steps;
     // Samples on the ray.
@@ -20,13 +29,47 @@ Ray load_ray() {
     vec4 unit = texelFetch(direction, pixel, 0);
     Ray ray;
     ray.entry = texelFetch(entry, pixel, 0).xyz;
-    ray.step_vector = unit.xyz * frame.inverse_extent[0].xyz * frame.step_length;
+    for (int axis = 0; axis < 3; ++axis) {
+        vec2 stride = df_multiply(vec2(unit[axis], 0.0), vec2(frame.voxel_step[0][axis], frame.voxel_step[1][axis]));
+        ray.stride_high[axis] = leading(stride.x, STRIDE_CLEARED);
+        ray.stride_middle[axis] = leading(stride.x - ray.stride_high[axis], STRIDE_CLEARED);
+        ray.stride_rest[axis] = ((stride.x - ray.stride_high[axis]) - ray.stride_middle[axis]) + stride.y;
+        ray.step_vector[axis] = stride.x / frame.dims[axis];
+        vec2 first = df_add(two_product(ray.entry[axis], frame.dims[axis]), vec2(-0.5, 0.0));
+        ray.whole[axis] = floor(first.x);
+        ray.part[axis] = (first.x - ray.whole[axis]) + first.y;
+    }
     ray.steps = unit.w * frame.inverse_step;
     ray.samples = uint(max(ceil(ray.steps - frame.offset), 0.0));
     return ray;
 }
 
-// Position from the index, never from adding steps up.
+// Texture coordinates of sample `i`, from the index, never from adding steps up; rounded to some 2^-24 of the volume.
 vec3 sample_position(Ray ray, uint i) {
     return fma(vec3(float(i) + frame.offset), ray.step_vector, ray.entry);
+}
+
+// A point by the voxel below it on each axis and its distance from there, in voxels from voxel centre to voxel centre.
+struct Place {
+    vec3 below;
+    vec3 weight;
+};
+
+// Sample `i` to some 2^-22 voxels, wherever in the volume: whole voxels are kept apart, so that the weights keep
+// their digits.
+Place sample_place(Ray ray, uint i) {
+    vec3 steps = vec3(float(i) + frame.offset);
+    vec3 way = steps * ray.stride_high;
+    vec3 way_whole = floor(way);
+    vec3 rest = steps * ray.stride_middle + steps * ray.stride_rest;
+    // In this order: the first difference is exact.
+    precise vec3 left = ((way - way_whole) + ray.part) + rest;
+    vec3 carry = floor(left);
+    return Place(ray.whole + way_whole + carry, left - carry);
+}
+
+// The cell (2x2x2 voxels) a point lies in; border cells reach to the faces. Twin: src/scene/field.rs.
+ivec3 cell_of(Place place) {
+    ivec3 last = max(ivec3(frame.dims.xyz) - 2, ivec3(0));
+    return clamp(ivec3(place.below), ivec3(0), last);
 }

@@ -15,8 +15,12 @@ float section_depth(uint section, bool arrived) {
     return (float(section) + (arrived ? ARRIVED : AHEAD)) / (2.0 * float(frame.passes));
 }
 
-// Whole segments within `free` voxels that hold no contributing sample. The last sample of m segments lies at
-// (m M - 1) steps, a whole step before their end, so rounding up by a millionth of a segment is safe.
+// What f32 may take from a quotient of a whole number and a segment, relative, the segment's own rounding included.
+const float QUOTIENT_ROUNDING = exp2(-22.0);
+
+// Whole segments within `free` voxels that hold no contributing sample. The last sample of m segments of M samples
+// lies at (m M - 1) steps, a whole step before their end; at 255 voxels, the largest distance, rounding up reaches
+// 6e-5 voxels, and no step is as short.
 uint passes_skipped(float free) {
-    return uint(floor(free / frame.segment_voxels + 1e-6));
+    return uint(floor(free / frame.segment_voxels * (1.0 + QUOTIENT_ROUNDING)));
 }

@@ -8,8 +8,7 @@ struct Piece {
     // Where the piece begins (units of the volume texture), and 1 / its length (0 for the last, endless one).
     float begin;
     float inverse_length;
-    float unused_0;
-    float unused_1;
+    float unused[2];
 };
 
 layout(set = 0, binding = 5, std430) readonly buffer Transfer {

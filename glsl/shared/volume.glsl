@@ -1,5 +1,5 @@
 // The scalar field: trilinear interpolation with clamp to edge, voxel centres at (i + 0.5) / n.
-// Twin: src/math/interpolate.rs. Needs frame.glsl and cell.glsl.
+// Twin: src/math/interpolate.rs. Needs frame.glsl and samples.glsl.
 
 layout(set = 0, binding = 3) uniform sampler3D volume;
 #ifdef HOLES
@@ -14,13 +14,11 @@ vec4 mix_fused(vec4 a, vec4 b, float w) {
     return fma(vec4(w), b - a, a);
 }
 
-float sample_exact(vec3 position) {
-    vec3 shifted = position * frame.dims.xyz - 0.5;
-    vec3 below = floor(shifted);
-    vec3 w = shifted - below;
+float sample_exact(Place place) {
+    vec3 w = place.weight;
     ivec3 last = ivec3(frame.dims.xyz) - 1;
-    ivec3 a = clamp(ivec3(below), ivec3(0), last);
-    ivec3 b = clamp(ivec3(below) + 1, ivec3(0), last);
+    ivec3 a = clamp(ivec3(place.below), ivec3(0), last);
+    ivec3 b = clamp(ivec3(place.below) + 1, ivec3(0), last);
     vec4 x0 = vec4(texelFetch(volume, ivec3(a.x, a.y, a.z), 0).r, texelFetch(volume, ivec3(a.x, b.y, a.z), 0).r,
                    texelFetch(volume, ivec3(a.x, a.y, b.z), 0).r, texelFetch(volume, ivec3(a.x, b.y, b.z), 0).r);
     vec4 x1 = vec4(texelFetch(volume, ivec3(b.x, a.y, a.z), 0).r, texelFetch(volume, ivec3(b.x, b.y, a.z), 0).r,
@@ -30,15 +28,15 @@ float sample_exact(vec3 position) {
     return fma(w.z, y.y - y.x, y.x);
 }
 
-// Scalar value at a point, texture coordinates; in units of the texture.
-float sample_volume(vec3 position) {
-    return FILTER_EXACT ? sample_exact(position) : textureLod(volume, position, 0.0).r;
+// Scalar value at sample `i`, in units of the texture.
+float sample_volume(Ray ray, uint i) {
+    return FILTER_EXACT ? sample_exact(sample_place(ray, i)) : textureLod(volume, sample_position(ray, i), 0.0).r;
 }
 
-// Whether the point lies in a cell that stays transparent since a corner is not a finite number.
-bool in_hole(vec3 position) {
+// Whether sample `i` lies in a cell that stays transparent since a corner is not a finite number.
+bool in_hole(Ray ray, uint i) {
 #ifdef HOLES
-    return texelFetch(holes, cell_at(position), 0).r != 0u;
+    return texelFetch(holes, cell_of(sample_place(ray, i)), 0).r != 0u;
 #else
     return false;
 #endif

@@ -327,7 +327,7 @@ impl Compiler<'_> {
         let mut bound: Vec<(&str, Bound)> = Vec::new();
         for access in step.accesses.iter().filter(|a| a.usage == Usage::Sampled) {
             let resource = access.resource;
-            let layout = access.usage.layout(resource.is_depth());
+            let layout = access.usage.layout();
             if resource == Resource::Frame {
                 bound.push((resource.name(), Bound::Uniform(&self.frame)));
             } else if let Some(buffer) = self.resident.buffer(resource) {

@@ -17,6 +17,8 @@ pub struct CpuFrame {
     /// Pixels that f32 cannot decide (see [`Pixel::undecided`]).
     pub undecided: Vec<bool>,
     pub counts: Counts,
+    /// Rays that were not dead, each time they were counted.
+    pub rays_left: Vec<u64>,
     /// Main fragments that took a sample of non-zero opacity: no skipping can run fewer and keep the picture.
     pub ideal: u64,
 }
@@ -42,18 +44,19 @@ impl Counts {
         }
     }
 
-    fn add(mut self, other: &Self) -> Self {
-        let lists = [(&mut self.main, &other.main), (&mut self.intermediate, &other.intermediate)];
-        for (mine, theirs) in lists {
-            mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += b);
-        }
-        self
+    fn add(&mut self, other: &Self) {
+        add(&mut self.main, &other.main);
+        add(&mut self.intermediate, &other.intermediate);
     }
+}
+
+fn add(mine: &mut [u64], theirs: &[u64]) {
+    mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += b);
 }
 
 /// Runs the plan.
 pub fn run(scene: &Scene, plan: &Plan, structures: &Structures) -> CpuFrame {
-    let [width, height] = plan.view.size;
+    let height = plan.view.size[1];
     let twin = Twin {
         scene,
         rays: plan.view.rays,
@@ -62,33 +65,57 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures) -> CpuFrame {
         blocks: structures.blocks.as_ref().map(|b| &b.value),
     };
     let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row)).collect();
-    let mut frame = CpuFrame {
-        pixels: Vec::with_capacity(width as usize * height as usize),
-        undecided: Vec::new(),
-        counts: Counts::new(plan.passes),
-        ideal: 0,
-    };
+    let mut frame = CpuFrame::empty(plan);
     for row in rows {
         frame.pixels.extend(row.pixels);
         frame.undecided.extend(row.undecided);
-        frame.counts = frame.counts.add(&row.counts);
+        frame.counts.add(&row.counts);
+        add(&mut frame.rays_left, &row.rays_left);
         frame.ideal += row.ideal;
     }
+    frame.end_early(plan);
     frame
 }
 
+impl CpuFrame {
+    fn empty(plan: &Plan) -> Self {
+        let counted = plan.steps.iter().filter(|s| s.group == Group::Alive).count();
+        Self {
+            pixels: Vec::new(),
+            undecided: Vec::new(),
+            counts: Counts::new(plan.passes),
+            rays_left: vec![0; counted],
+            ideal: 0,
+        }
+    }
+
+    /// Takes away the counts of steps that are not run since no ray was left.
+    fn end_early(&mut self, plan: &Plan) {
+        let counted = plan.steps.iter().enumerate().filter(|(_, s)| s.group == Group::Alive);
+        let Some(((end, _), _)) = counted.zip(&self.rays_left).find(|(_, left)| **left == 0) else { return };
+        for step in &plan.steps[end..] {
+            if let Some(list) = self.counts.of(step.group) {
+                list[step.pass as usize] = 0;
+            }
+        }
+    }
+}
+
 fn run_row(twin: &Twin, plan: &Plan, row: u32) -> CpuFrame {
-    let mut frame = CpuFrame { pixels: Vec::new(), undecided: Vec::new(), counts: Counts::new(plan.passes), ideal: 0 };
+    let mut frame = CpuFrame::empty(plan);
     for column in 0..plan.view.size[0] {
         let (covered, mut undecided) = coverage(twin, column, row);
         let mut pixel = Pixel { column, row, undecided: false, ..Pixel::default() };
         if covered {
+            let mut counted = 0;
             for step in &plan.steps {
                 let Work::Draw(draw) = &step.work else { continue };
-                let Some(pass) = draw.twin else { continue };
-                if !takes_part(draw, &pixel) {
-                    continue;
+                let runs = takes_part(draw, &pixel);
+                if step.group == Group::Alive {
+                    frame.rays_left[counted] += u64::from(runs);
+                    counted += 1;
                 }
+                let Some(pass) = draw.twin.filter(|_| runs) else { continue };
                 let effect = pass(twin, &mut pixel, step.pass);
                 if let Some(list) = frame.counts.of(step.group) {
                     list[step.pass as usize] += 1;

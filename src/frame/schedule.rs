@@ -58,7 +58,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
         for &Access { resource, usage } in step.accesses.iter().filter(|a| a.resource.is_target()) {
             let previous = last.insert(resource, usage);
             let before = layouts.get(&resource).copied().unwrap_or(vk::ImageLayout::UNDEFINED);
-            let during = usage.layout(resource.is_depth());
+            let during = usage.layout();
             if !is_attachment(usage) {
                 if before != during {
                     let source = previous.map_or(Scope::default(), scope);
@@ -68,7 +68,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
                 continue;
             }
             let following = next(resource);
-            let leave = following.map_or(during, |a| a.usage.layout(resource.is_depth()));
+            let leave = following.map_or(during, |a| a.usage.layout());
             attachments.push(attachment(resource, usage, format(resource), before, leave, following.is_some()));
             targets.push(resource);
             layouts.insert(resource, leave);
@@ -129,7 +129,7 @@ fn attachment(
             (false, false) => vk::AttachmentStoreOp::DONT_CARE,
         },
         before,
-        during: usage_now.layout(resource.is_depth()),
+        during: usage_now.layout(),
         after,
     }
 }

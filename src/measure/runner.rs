@@ -1,7 +1,7 @@
 //! Runs the methods of one scene on a device and fills a [`Run`] for each: counts and times from separate frames,
 //! after warm-ups, the methods' repeats interleaved so that a busy machine troubles all of them alike.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
 use super::error::compare;
@@ -160,15 +160,16 @@ impl<'a> Runner<'a> {
     /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
         let terminates = scene.settings.method.name != MethodName::Rc;
-        if !self.references.contains_key(&terminates) {
-            let mut scene = scene.clone();
-            scene.settings.sampling.passes = passes;
-            scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
-            let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
-            let frame = cpu::run(&scene, &plan, &Structures::default());
-            self.references.insert(terminates, frame);
+        match self.references.entry(terminates) {
+            btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
+            btree_map::Entry::Vacant(place) => {
+                let mut scene = scene.clone();
+                scene.settings.sampling.passes = passes;
+                scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
+                let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
+                Ok(place.insert(cpu::run(&scene, &plan, &Structures::default())))
+            }
         }
-        Ok(&self.references[&terminates])
     }
 
     fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {

@@ -98,12 +98,11 @@ impl Usage {
     }
 
     /// The layout an image has meanwhile.
-    pub fn layout(self, depth: bool) -> vk::ImageLayout {
+    pub fn layout(self) -> vk::ImageLayout {
         match self {
             Self::Color => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
             Self::DepthWrite => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-            Self::Sampled if depth => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             Self::CopySource => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             Self::CopyTarget => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
             Self::Sampled | Self::Vertices | Self::ComputeRead | Self::ComputeWrite => {

@@ -163,7 +163,7 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
         leave("interpolation in the shader", "the texture unit interpolates".to_owned());
     }
     if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
-        leave("count of rays left", format!("there are no more than {} main passes", passes::BATCH));
+        leave("counting of rays", format!("there are no more than {} main passes", passes::BATCH));
     }
 }
 

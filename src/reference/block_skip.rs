@@ -12,16 +12,10 @@ pub const SKIPPED: f64 = 0.5;
 pub fn block_skip(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let blocks = twin.blocks.expect("block skipping is planned with blocks");
     let (first, end) = twin.segment(pixel, pass);
-    let visible = |pixel: &Pixel| {
-        (first..end).any(|i| {
-            let cell = twin.scene.field.cell_at(twin.voxel(twin.sample_position(pixel, i)));
-            blocks.visible(cell)
-        })
-    };
     let saturated = twin.saturated(pixel);
     pixel.stored = if first >= end || saturated {
         DEAD
-    } else if visible(pixel) {
+    } else if (first..end).any(|i| twin.at_cell(pixel, i, |cell| blocks.visible(cell))) {
         0.0
     } else {
         SKIPPED

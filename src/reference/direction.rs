@@ -1,15 +1,18 @@
 //! Twin of `glsl/direction.frag`: direction and length of the ray [KW03 §2.1, pass 2].
 
-use super::{Effect, Pixel, Twin};
+use super::{Effect, Pixel, Twin, stored};
 use crate::math::ray::box_interval;
 
 /// Fills `direction` and `length`, and sees whether f32 can tell the number of samples.
 pub fn direction(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let direction = twin.rays.direction(pixel.column, pixel.row);
-    let half = 0.5 * twin.scene.field.extent();
-    if let Some((enter, leave)) = box_interval(twin.rays.eye, direction, half, twin.rays.near) {
-        pixel.direction = direction.normalize();
-        pixel.length = (leave - enter) * direction.length();
+    let extent = twin.scene.field.extent();
+    if let Some((_, leave)) = box_interval(twin.rays.eye, direction, 0.5 * extent, twin.rays.near) {
+        let exit = twin.rays.eye + leave * direction;
+        let way = exit - (pixel.entry - 0.5) * extent;
+        // A ray so short that its ends are stored as one point has no direction.
+        pixel.direction = stored(way.normalize_or_zero());
+        pixel.length = f64::from(way.length() as f32);
         pixel.undecided |= !twin.sample_count_decided(pixel);
     }
     Effect::Silent

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Effect, Pixel, Twin};
+use super::{Effect, Pixel, Twin, stored};
 use crate::math::ray::box_interval;
 
 /// Fills `entry`, texture coordinates. A pixel whose ray misses keeps the clear value.
@@ -11,7 +11,7 @@ pub fn entry(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let extent = twin.scene.field.extent();
     if let Some((enter, _)) = box_interval(twin.rays.eye, direction, 0.5 * extent, twin.rays.near) {
         let point = twin.rays.eye + enter * direction;
-        pixel.entry = (point / extent + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+        pixel.entry = stored(point / extent + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
     }
     Effect::Silent
 }

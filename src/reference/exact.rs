@@ -15,7 +15,7 @@
 //! Error control: a panel's halves are taken when they change it by at most [`TOLERANCE`] times its share of the
 //! ray, weighted by the transmittance in front of it, so the accepted changes of a ray add up to at most
 //! [`TOLERANCE`]. The error of the halves is far below that change (the rule is of order 12). Shares below
-//! [`LEAST_SHARE`] count as that much, since rounding would not let less be reached and since the short panels
+//! `LEAST_SHARE` count as that much, since rounding would not let less be reached and since the short panels
 //! beside a pole of sigma have errors in proportion to their length; those are few. Colours are held to the same,
 //! relative to the brightest colour of the transfer function where that is above 1.
 //!

@@ -1,13 +1,17 @@
 //! Twin of `glsl/main_pass.frag`: M samples of the ray's segment, front to back [KW03 §2.1].
 
+use glam::DVec3;
+
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::trilinear;
 use crate::math::opacity::{composite, corrected_opacity};
 use crate::scene::settings::{Alpha, Last};
 
-/// A scalar value this near to a jump of the transfer function may fall on either side of it in f32:
-/// interpolation rounds to a few units of 2^-24 and the position to 1e-5 voxels.
-const JUMP_ROUNDING: f64 = 2e-5;
+/// Three interpolations of values about 1 round to a few units of 2^-24.
+const VALUE_ROUNDING: f64 = 3e-7;
+
+/// Places are good to 2^-22 voxels on each axis, over which the value changes by that share of the spread of its cell.
+const PLACE_ROUNDING: f64 = 1e-6;
 
 impl Twin<'_> {
     /// Premultiplied colour of sample `i`.
@@ -21,7 +25,7 @@ impl Twin<'_> {
             }
         }
         let value = trilinear(&field.values, field.dims(), voxel);
-        pixel.undecided |= transfer.jumps().any(|x| (value - x).abs() < JUMP_ROUNDING);
+        pixel.undecided |= transfer.jumps().any(|x| self.may_cross(x, value, voxel));
         let [r, g, b, a] = transfer.evaluate(value);
         let steps = match sampling.last {
             Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
@@ -32,6 +36,16 @@ impl Twin<'_> {
             Alpha::Paper => (a * steps).min(1.0),
         };
         [r * alpha, g * alpha, b * alpha, alpha]
+    }
+
+    /// Whether f32 may have a `value` interpolated at `voxel` on the other side of a `jump`.
+    fn may_cross(&self, jump: f64, value: f64, voxel: DVec3) -> bool {
+        let off = (value - jump).abs();
+        let field = &self.scene.field;
+        let corners = field.corners(field.cell_at(voxel)).map(|c| f64::from(field.values[c]));
+        let spread =
+            corners.into_iter().fold(f64::NEG_INFINITY, f64::max) - corners.into_iter().fold(f64::INFINITY, f64::min);
+        off < VALUE_ROUNDING * value.abs() + PLACE_ROUNDING * spread
     }
 }
 

@@ -45,9 +45,14 @@ pub struct Pixel {
     pub accumulated: [f64; 4],
     /// The depth buffer.
     pub stored: f64,
-    /// f32 cannot decide whether a sample is on the ray, on which side of a jump it lies, or whether the ray
-    /// is saturated; the pixel may differ by more than rounding.
+    /// f32 cannot decide whether a sample is on the ray, on which side of a jump or in which of two cells it lies, or
+    /// whether the ray is saturated; picture and counts of the pixel may differ by more than rounding.
     pub undecided: bool,
+}
+
+/// Numbers as the 32-bit attachments ENTRY and DIR keep them: samples are taken along the ray that is stored.
+fn stored(value: DVec3) -> DVec3 {
+    value.as_vec3().as_dvec3()
 }
 
 /// What a pass did with a pixel it ran for.

@@ -15,8 +15,7 @@ pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
         pixel.stored = DEAD;
         return Effect::Silent;
     }
-    let cell = twin.scene.field.cell_at(twin.voxel(twin.sample_position(pixel, first)));
-    let free = f64::from(distance.at(cell));
+    let free = f64::from(twin.at_cell(pixel, first, |cell| distance.at(cell)));
     let next = pass + passes_skipped(free, f64::from(sampling.samples_per_pass) * sampling.step);
     let left = method.exit_lookahead && next * sampling.samples_per_pass >= twin.sample_count(pixel);
     pixel.stored = if left || next >= twin.passes { DEAD } else { section_depth(next, twin.passes) };

@@ -4,10 +4,12 @@ use glam::DVec3;
 
 use super::{Pixel, Twin};
 
-/// The GPU's count of samples comes from an f32 length; within this of a whole number (relative to the length
-/// in steps, plus an absolute part for short rays) the two may differ by one.
-const LENGTH_RELATIVE: f64 = 1e-6;
-const LENGTH_ABSOLUTE: f64 = 1e-5;
+/// The GPU's count of samples comes from the stored length and an f32 step. Within this of a whole number (relative to
+/// the length in steps: two roundings and that of the offset, of 2^-24 each) the two may differ by one.
+const LENGTH_ROUNDING: f64 = 2e-7;
+
+/// Places are good to 2^-22 voxels: a sample this near to the face of a cell may be on either side of it.
+const FACE_ROUNDING: f64 = 1e-6;
 
 impl Twin<'_> {
     /// Distance between samples in volume units.
@@ -29,7 +31,7 @@ impl Twin<'_> {
     pub fn sample_count_decided(&self, pixel: &Pixel) -> bool {
         let steps = self.steps(pixel);
         let shifted = steps - self.scene.settings.sampling.offset.steps();
-        (shifted - shifted.round()).abs() > LENGTH_RELATIVE * steps + LENGTH_ABSOLUTE
+        (shifted - shifted.round()).abs() > LENGTH_ROUNDING * steps.max(1.0)
     }
 
     /// Position of sample `i`, texture coordinates.
@@ -41,6 +43,20 @@ impl Twin<'_> {
     /// Texture coordinates to voxel coordinates (centres at i + 0.5).
     pub fn voxel(&self, position: DVec3) -> DVec3 {
         position * DVec3::from_array(self.scene.field.dims().map(|n| n as f64))
+    }
+
+    /// What `look` says of the cell that sample `i` lies in; undecided where it says another thing of one beside it
+    /// that f32 might take.
+    pub fn at_cell<T: PartialEq>(&self, pixel: &mut Pixel, i: u32, look: impl Fn([usize; 3]) -> T) -> T {
+        let voxel = self.voxel(self.sample_position(pixel, i));
+        let found = look(self.scene.field.cell_at(voxel));
+        let near = |by: f64| self.scene.field.cell_at(voxel + DVec3::splat(by));
+        let (low, high) = (near(-FACE_ROUNDING), near(FACE_ROUNDING));
+        if low != high {
+            let corner = |n: usize| std::array::from_fn(|axis| if n >> axis & 1 == 0 { low[axis] } else { high[axis] });
+            pixel.undecided |= (0..8).any(|n| look(corner(n)) != found);
+        }
+        found
     }
 
     /// The samples of main pass `pass`: first and one past the last.

@@ -10,7 +10,10 @@ pub fn section_end(section: u32, passes: u32) -> f64 {
     (f64::from(section) + 1.0) / (2.0 * f64::from(passes))
 }
 
+/// As in the shader, whose quotients it makes up for.
+const QUOTIENT_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+
 /// Whole segments of `segment` voxels within `free` voxels that hold no contributing sample.
 pub fn passes_skipped(free: f64, segment: f64) -> u32 {
-    (free / segment + 1e-6).floor() as u32
+    (free / segment * (1.0 + QUOTIENT_ROUNDING)).floor() as u32
 }

@@ -2,7 +2,7 @@
 //! and a truth to compare with.
 //!
 //! They are functions of p in [-1, 1]^3, which is texture space stretched: p = 2 * texture - 1. Tubes, shells and
-//! boxes are made of two profiles that reach 0 with two continuous derivatives: [`bump`] and [`smoothstep`].
+//! boxes are made of two profiles that reach 0 with two continuous derivatives: `bump` and `smoothstep`.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 /// Where a buffer lives and who reaches it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// The device only.
+    /// The device only, even where its memory is the host's.
     Device,
     /// Written by the host, read by the device.
     Upload,
@@ -86,7 +86,7 @@ impl Buffer {
     pub fn write(&self, offset: u64, bytes: &[u8]) -> Result<()> {
         let end = offset.checked_add(bytes.len() as u64).filter(|&end| end <= self.info.size);
         let mut allocation = self.inner.allocation.lock().unwrap_or_else(PoisonError::into_inner);
-        match (end, allocation.mapped_slice_mut()) {
+        match (end, allocation.mapped_slice_mut().filter(|_| self.info.place != Place::Device)) {
             (Some(end), Some(mapped)) => {
                 mapped[offset as usize..end as usize].copy_from_slice(bytes);
                 Ok(())
@@ -105,7 +105,8 @@ impl Buffer {
     /// A buffer the host cannot reach.
     pub fn read(&self) -> Result<Vec<u8>> {
         let allocation = self.inner.allocation.lock().unwrap_or_else(PoisonError::into_inner);
-        let mapped = allocation.mapped_slice().ok_or_else(|| self.unreachable())?;
+        let mapped = allocation.mapped_slice().filter(|_| self.info.place != Place::Device);
+        let mapped = mapped.ok_or_else(|| self.unreachable())?;
         Ok(mapped[..self.info.size as usize].to_vec())
     }
 

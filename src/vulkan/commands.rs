@@ -63,7 +63,8 @@ impl Commands {
         })
     }
 
-    /// Ends the recording; the result can be submitted again and again.
+    /// Ends the recording; the result can be submitted again and again. What it writes, the host sees once its
+    /// submission has ended: a wait alone does not promise that.
     ///
     /// # Errors
     /// The first misuse that was recorded, or too little memory.
@@ -71,8 +72,17 @@ impl Commands {
         if let Some(fault) = self.fault {
             return Err(fault);
         }
+        let barrier = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let dependency = vk::DependencyInfo::default().memory_barriers(&barrier);
         // SAFETY: the buffer is being recorded, by this thread only.
-        let ended = unsafe { self.device.raw.end_command_buffer(self.raw) };
+        let ended = unsafe {
+            self.device.raw.cmd_pipeline_barrier2(self.raw, &dependency);
+            self.device.raw.end_command_buffer(self.raw)
+        };
         self.device.check("vkEndCommandBuffer", &self.name, ended)?;
         Ok(Recorded {
             name: self.name,

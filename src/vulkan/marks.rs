@@ -62,23 +62,13 @@ impl Marks {
         *self.names.lock().unwrap_or_else(PoisonError::into_inner) = names;
     }
 
-    /// "the last step begun was 12 (main_pass #3)", for each queue that began one.
+    /// See [`told`].
     pub fn last_step(&self) -> String {
         let allocation = self.allocation.lock().unwrap_or_else(PoisonError::into_inner);
         let names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
         let words = allocation.mapped_slice().unwrap_or_default().chunks_exact(4).take(WORDS);
-        let begun: Vec<_> = words
-            .map(|word| u32::from_ne_bytes([word[0], word[1], word[2], word[3]]))
-            .filter(|&number| number != NONE)
-            .map(|number| match names.get(number as usize) {
-                Some(name) => format!("{number} ({name})"),
-                None => number.to_string(),
-            })
-            .collect();
-        match begun.is_empty() {
-            true => "no step had begun".into(),
-            false => format!("the last step begun was {}", begun.join(", on the compute queue ")),
-        }
+        let words: Vec<_> = words.map(|word| u32::from_ne_bytes([word[0], word[1], word[2], word[3]])).collect();
+        told(&words, &names)
     }
 
     pub fn free(self, raw: &ash::Device, allocator: &mut Allocator) {
@@ -87,5 +77,54 @@ impl Marks {
         unsafe { raw.destroy_buffer(self.buffer, None) };
         // An error here means that the allocator has lost count; the device goes next and takes the memory with it.
         let _ = allocator.free(allocation);
+    }
+}
+
+/// "the last step begun was 12 (main_pass #3)", for each queue that began one.
+fn told(words: &[u32], names: &[String]) -> String {
+    let step = |&number: &u32| match names.get(number as usize) {
+        Some(name) => format!("{number} ({name})"),
+        None => number.to_string(),
+    };
+    let begun: Vec<_> = words.iter().filter(|&&number| number != NONE).map(step).collect();
+    match begun.is_empty() {
+        true => "no step had begun".into(),
+        false => format!("the last step begun was {}", begun.join(", on the compute queue ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::failure::lost;
+    use super::{NONE, told};
+
+    fn names() -> Vec<String> {
+        ["entry", "direction", "main_pass #0"].map(str::to_owned).to_vec()
+    }
+
+    #[test]
+    fn last_step_of_each_queue_is_told_by_number_and_name() {
+        assert_eq!(told(&[2, NONE], &names()), "the last step begun was 2 (main_pass #0)");
+        assert_eq!(told(&[2, 0], &names()), "the last step begun was 2 (main_pass #0), on the compute queue 0 (entry)");
+    }
+
+    #[test]
+    fn step_without_a_name_is_told_by_its_number() {
+        assert_eq!(told(&[7, NONE], &names()), "the last step begun was 7");
+    }
+
+    #[test]
+    fn no_step_is_told_as_such() {
+        assert_eq!(told(&[NONE, NONE], &names()), "no step had begun");
+    }
+
+    #[test]
+    fn lost_device_names_call_object_code_and_step() {
+        let text = lost("vkQueueSubmit2", "frame", &told(&[1, NONE], &names())).to_string();
+        assert_eq!(
+            text,
+            "frame: vkQueueSubmit2 failed with VK_ERROR_DEVICE_LOST; the last step begun was 1 (direction); split the \
+             work into shorter passes (a watchdog may have ended it), or update the driver"
+        );
     }
 }

@@ -1,23 +1,21 @@
 //! The command line on a device: pictures, counts, benches, and what a device refuses.
 
-#[path = "../device/mod.rs"]
-mod device;
 mod extremes;
-#[path = "../cli/program.rs"]
+#[path = "../../cli/program.rs"]
 mod program;
 
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use depthleap::vulkan::Device;
-use device::{Need, test};
 use program::{Ended, Place, npy};
 use serde_json::Value;
+
+use crate::harness::{Need, Test, data, test};
 
 const METHODS: [&str; 5] = ["rc", "rc-ert", "rc-block", "nn-omni", "cpu"];
 const SMALL: &str = "builtin:shells:24 --azimuth 31 --elevation 17 --viewport 24x18";
 
-fn main() -> ExitCode {
+pub fn tests() -> Vec<Test> {
     let mut tests = vec![
         test("volume beyond the device's limit is refused", volume_beyond_the_limit),
         test("viewport beyond the device's limit is refused", viewport_beyond_the_limit),
@@ -38,7 +36,7 @@ fn main() -> ExitCode {
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     tests.extend(extremes::tests());
-    device::run(tests)
+    tests.into_iter().map(|test| test.within("cli")).collect()
 }
 
 fn volume_beyond_the_limit(device: &Arc<Device>) {
@@ -260,7 +258,7 @@ fn early_ends_agree(_: &Arc<Device>) {
 /// Fragments of the front view at 500 x 500 with 8 samples a pass; 183,184 pixels are covered, as in [Thesis §5.6].
 fn fuel_counts(_: &Arc<Device>) {
     let place = Place::new();
-    let volume = device::data("fuel.nrrd");
+    let volume = data("fuel.nrrd");
     place.done(&format!("render {} --method rc-block -o a.npy --json a.json", volume.display()));
     let fragments = &place.json("a.json")["fragments"];
     assert_eq!(fragments["main_per_pass"][0], 183_184);

@@ -3,9 +3,9 @@
 
 use std::process::Stdio;
 
-use crate::METHODS;
-use crate::device::{Test, test};
-use crate::program::{Ended, Place, npy};
+use super::METHODS;
+use super::program::{Ended, Place, npy};
+use crate::harness::{Test, test};
 
 /// Largest difference of a channel from f64: some hundred samples rounded to f32. Pixels that f32 cannot decide (a
 /// sample at the very end of a ray, an edge of the box) may differ by more, and the run says how many they are.

@@ -1,8 +1,8 @@
-//! The harness of tests that need a Vulkan device: one device with the validation layer on for all tests of a file,
+//! The harness of tests that need a Vulkan device: one device with the validation layer on for all tests,
 //! one test at a time, any validation message fails the test that brought it. What a machine lacks (a device, a
 //! feature, `../shared/data`) makes a test *ignored*, with a line that says so: skipped is not passed.
 //!
-//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs these files once for each driver it knows.
+//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs this program once for each driver it knows.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -13,21 +13,33 @@ use libtest_mimic::{Arguments, Failed, Trial};
 
 /// A test: its name, what it needs besides a device, and what it does.
 pub struct Test {
-    pub name: String,
-    pub needs: Vec<Need>,
-    pub run: Box<dyn FnOnce(&Arc<Device>) -> Result<(), Failed> + Send>,
+    name: String,
+    needs: Vec<Need>,
+    run: Run,
 }
+
+type Run = Box<dyn FnOnce(&Arc<Device>) -> Result<(), Failed> + Send>;
 
 /// What some machines lack.
 #[derive(Clone, Debug)]
 pub enum Need {
     DepthBounds,
-    /// For what such a device has to refuse.
-    NoDepthBounds,
     Conditional,
+    /// The depth bounds test missing: what is refused then.
+    NoDepthBounds,
+    /// Computing on queues of another family than drawing.
+    ComputeFamily,
     /// A file of `../shared/data`.
     Data(&'static str),
 }
+
+/// Tests that need a device and nothing more, each named after its function.
+macro_rules! tests {
+    ($($test:path),* $(,)?) => {
+        vec![$($crate::harness::test(stringify!($test).rsplit("::").next().unwrap_or_default(), $test)),*]
+    };
+}
+pub(crate) use tests;
 
 /// A test that needs a device and nothing more.
 pub fn test(name: &str, run: impl FnOnce(&Arc<Device>) + Send + 'static) -> Test {
@@ -39,6 +51,11 @@ pub fn test(name: &str, run: impl FnOnce(&Arc<Device>) + Send + 'static) -> Test
 }
 
 impl Test {
+    /// The test as `module::name`.
+    pub fn within(self, module: &str) -> Self {
+        Self { name: format!("{module}::{}", self.name), ..self }
+    }
+
     pub fn needs(mut self, need: Need) -> Self {
         self.needs.push(need);
         self
@@ -57,7 +74,24 @@ pub fn open(single_queue: bool) -> depthleap::Result<Arc<Device>> {
     Device::new(&instance, &info, single_queue)
 }
 
-/// Runs the tests of a file; its `main`.
+/// Messages of a test that are printed.
+const MESSAGES: usize = 3;
+
+/// Runs `test` and fails it when validation of its device said anything meanwhile.
+pub fn judged(device: &Arc<Device>, test: impl FnOnce(&Arc<Device>) -> Result<(), Failed>) -> Result<(), Failed> {
+    let before = device.instance().messages().len();
+    let result = test(device);
+    let messages = device.instance().messages();
+    match messages.get(before..) {
+        Some([]) | None => result,
+        Some(new) => {
+            let first = new[..new.len().min(MESSAGES)].join("\n");
+            Err(Failed::from(format!("validation says, {} times:\n{first}", new.len())))
+        }
+    }
+}
+
+/// Runs the tests.
 pub fn run(tests: Vec<Test>) -> ExitCode {
     let mut arguments = Arguments::from_args();
     // CPU drivers take all cores for one frame, and messages belong to the test that runs.
@@ -68,14 +102,28 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
             let info = &device.info;
             eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
         }
-        Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this file is skipped: {error}"),
+        Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }
     let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok())).collect();
     let conclusion = libtest_mimic::run(&arguments, trials);
     if conclusion.num_ignored > 0 {
         eprintln!("{} test(s) SKIPPED, for the reasons above", conclusion.num_ignored);
     }
-    conclusion.exit_code()
+    match device.map_or_else(|_| Vec::new(), closed) {
+        messages if messages.is_empty() => conclusion.exit_code(),
+        messages => {
+            eprintln!("FAILED: when the device was closed, validation says:\n{}", messages.join("\n"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What validation says when a device goes: about objects that are left, for one.
+pub fn closed(device: Arc<Device>) -> Vec<String> {
+    let instance = device.instance().clone();
+    let before = instance.messages().len();
+    drop(device);
+    instance.messages().split_off(before)
 }
 
 fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
@@ -89,24 +137,18 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
         eprintln!("SKIPPED: {name} needs {missing}");
         return Trial::test(name, move || Err(Failed::from(format!("needs {missing}")))).with_ignored_flag(true);
     };
-    Trial::test(name, move || {
-        let before = device.instance().messages().len();
-        let result = run(&device);
-        let messages = device.instance().messages();
-        match messages.get(before..) {
-            Some([]) | None => result,
-            Some(new) => Err(Failed::from(format!("validation says:\n{}", new.join("\n")))),
-        }
-    })
+    Trial::test(name, move || judged(&device, run))
 }
 
 fn lacks(need: &Need, device: &Device) -> Option<String> {
     match need {
         Need::DepthBounds => (!device.info.depth_bounds).then(|| "a device with the depth bounds test".to_owned()),
-        Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
         Need::Conditional => {
             (!device.info.conditional_rendering).then(|| "a driver with conditional rendering".to_owned())
         }
+        Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
+        Need::ComputeFamily => (device.compute.family == device.graphics.family)
+            .then(|| "a device that computes on queues of another family".to_owned()),
         Need::Data(file) => {
             let path = data(file);
             (!path.is_file()).then(|| format!("{}, which is not there", path.display()))

@@ -1,0 +1,136 @@
+//! `glsl/shared/ray.glsl` and `src/math/ray.rs`: where rays meet the box.
+
+use std::sync::Arc;
+
+use depthleap::math::ray::{ViewRays, box_interval};
+use depthleap::scene::{Camera, Scene};
+use depthleap::shared::Frame;
+use depthleap::vulkan::Device;
+use glam::DVec3;
+
+use super::kit::{Evaluator, Random, Setup, Worst};
+use super::scene;
+use crate::harness::{Test, tests};
+
+pub fn all() -> Vec<Test> {
+    tests![interval_is_its_twin, points_on_faces_are_exact, texture_coordinates_are_their_twins]
+}
+
+/// The interval's ends, then for each axis the coordinate at both; double-floats.
+type Results = [[f32; 4]; 4];
+
+/// A ray of a view, its results and what is right.
+struct Case {
+    eye: DVec3,
+    direction: DVec3,
+    half: DVec3,
+    results: Results,
+    truth: Option<(f64, f64)>,
+    /// What double-floats can tell of depths along this ray.
+    allowed: f64,
+}
+
+const SIZE: [u32; 2] = [64, 48];
+
+/// Rays from all around, through the corners' neighbourhood, along an axis and from the inside.
+fn views() -> Vec<(Scene, Camera)> {
+    let mut random = Random(41);
+    let boxes = ["shells:8", "shells:8x5x7", "shells:4x16x9"].map(scene);
+    let mut cameras: Vec<Camera> = (0..12)
+        .map(|_| {
+            Camera::orbit(
+                random.between(-180.0, 180.0),
+                random.between(-80.0, 80.0),
+                random.between(0.6, 4.0),
+                random.between(10.0, 90.0),
+            )
+        })
+        .collect();
+    cameras.push(Camera::orbit(0.0, 0.0, 1.91, 45.0));
+    cameras.push(Camera { eye: DVec3::new(0.1, -0.05, 0.02), ..Camera::orbit(30.0, 20.0, 2.0, 70.0) });
+    cameras.into_iter().enumerate().map(|(i, camera)| (boxes[i % 3].clone(), camera)).collect()
+}
+
+fn cases(device: &Arc<Device>) -> Vec<Case> {
+    let evaluator = Evaluator::new(device, "ray.comp", &[]);
+    let mut cases = Vec::new();
+    for (scene, camera) in views() {
+        let rays = camera.rays(SIZE).unwrap();
+        // The near plane is a plain f32 on the device.
+        let rays = ViewRays { near: f64::from(rays.near as f32), ..rays };
+        let frame = Some(Frame::new(&scene, &rays, 1));
+        let pixels: Vec<[u32; 2]> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])).collect();
+        let arguments: Vec<[f32; 4]> =
+            pixels.iter().map(|&[x, y]| [x as f32 + 0.5, y as f32 + 0.5, 0.0, 0.0]).collect();
+        let results = evaluator.run(&Setup { frame, ..Setup::default() }, &arguments);
+        let half = 0.5 * scene.field.extent();
+        for (&[x, y], results) in pixels.iter().zip(results) {
+            let direction = rays.direction(x, y);
+            let truth = box_interval(rays.eye, direction, half, rays.near);
+            // A component of the direction is a sum of numbers up to 1, each good to 2^-44; the smaller it is, the
+            // larger is what that error makes of the depth, which is at most 5.
+            let smallest = direction.abs().min_element();
+            let allowed = 5.0 * 2_f64.powi(-42) / smallest.max(1e-9);
+            cases.push(Case { eye: rays.eye, direction, half, results, truth, allowed });
+        }
+    }
+    cases
+}
+
+fn joined(high: f32, low: f32) -> f64 {
+    f64::from(high) + f64::from(low)
+}
+
+fn interval_is_its_twin(device: &Arc<Device>) {
+    let mut worst = Worst::default();
+    let (mut hits, mut misses) = (0, 0);
+    for case in cases(device) {
+        let [enter_high, enter_low, leave_high, leave_low] = case.results[0];
+        let (enter, leave) = (joined(enter_high, enter_low), joined(leave_high, leave_low));
+        let told = (enter < leave).then_some((enter, leave));
+        match (told, case.truth) {
+            (Some((enter, leave)), Some(truth)) => {
+                hits += 1;
+                worst.see(enter, truth.0, case.allowed, || format!("entry of {} {}", case.eye, case.direction));
+                worst.see(leave, truth.1, case.allowed, || format!("exit of {} {}", case.eye, case.direction));
+            }
+            (None, None) => misses += 1,
+            // Through an edge, to the last bit.
+            _ => assert!((enter - leave).abs() <= 2.0 * case.allowed, "{} {}", case.eye, case.direction),
+        }
+    }
+    assert!(hits > 5000 && misses > 5000, "{hits} hits, {misses} misses");
+    worst.assert(10_000);
+}
+
+fn points_on_faces_are_exact(device: &Arc<Device>) {
+    let mut faces = 0;
+    for case in cases(device).iter().filter(|case| case.truth.is_some()) {
+        let on_a_face = |at: usize| {
+            case.results[1..].iter().any(|axis| axis[at + 1] == 0.0 && (axis[at] == 0.0 || axis[at] == 1.0))
+        };
+        // A ray enters at the near plane where the eye is inside; it always leaves by a face.
+        let inside = case.eye.abs().cmplt(case.half).all();
+        assert!(inside || on_a_face(0), "entry of {} {}: {:?}", case.eye, case.direction, case.results);
+        assert!(on_a_face(2), "exit of {} {}: {:?}", case.eye, case.direction, case.results);
+        faces += 1;
+    }
+    assert!(faces > 5000, "{faces}");
+}
+
+fn texture_coordinates_are_their_twins(device: &Arc<Device>) {
+    let mut worst = Worst::default();
+    for case in &cases(device) {
+        let Some((enter, leave)) = case.truth else { continue };
+        for axis in 0..3 {
+            let [enter_high, enter_low, leave_high, leave_low] = case.results[axis + 1];
+            let at = |depth: f64| (case.eye + depth * case.direction)[axis] / (2.0 * case.half[axis]) + 0.5;
+            // The depth's error, in parts of the box's side, and the arithmetic's own.
+            let allowed = (case.allowed + 2_f64.powi(-40)) / (2.0 * case.half[axis]);
+            let what = || format!("axis {axis} of {} {}", case.eye, case.direction);
+            worst.see(joined(enter_high, enter_low), at(enter), allowed, what);
+            worst.see(joined(leave_high, leave_low), at(leave), allowed, what);
+        }
+    }
+    worst.assert(30_000);
+}

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@variant middle
+//@variant any MARK_FRAGDEPTH_ANY
+
+#include "../tests/device/formulas/arguments.glsl"
+#include "shared/frame.glsl"
+#include "shared/mark.glsl"
+#include "shared/section.glsl"
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    vec4 a = arguments.values[i];
+    uint section = uint(a.x);
+    uint skipped = passes_skipped(a.y);
+    results.values[i] = vec4(section_depth(section, false), section_depth(section, true), float(skipped), DEAD);
+}

@@ -1,0 +1,124 @@
+//! Scenes and views that skipping could get wrong, and how a test runs one.
+
+use std::sync::{Arc, OnceLock};
+
+use depthleap::frame::{
+    CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, cpu, self_check,
+};
+use depthleap::pass::cull::Form;
+use depthleap::plan::{self, Plan};
+use depthleap::read;
+use depthleap::scene::Scene;
+use depthleap::scene::settings::{Cull, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::vulkan::Device;
+
+/// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
+pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
+    let mut settings = Settings::default();
+    match volume.ends_with(".nrrd") {
+        true => settings.volume.path = Some(crate::harness::data(volume)),
+        false => settings.volume.builtin = Some(volume.to_owned()),
+    }
+    settings.transfer.preset = Some(tf.to_owned());
+    // At this size no edge of a box runs along a column of pixel centres in any of the views: a rasteriser, which moves
+    // corners to a raster of 1/256 pixel, could not be told which of them to cover.
+    settings.image.size = [122, 98];
+    settings.sampling.samples_per_pass = 4;
+    change(&mut settings);
+    read::scene(&settings).expect("a sound scene")
+}
+
+/// Hardware filters are as exact as they are; a comparison with f64 interpolates in the shader.
+pub fn exactly(settings: &mut Settings) {
+    settings.sampling.filter = Filter::Exact;
+    settings.volume.texture = VolumeTexture::R32f;
+}
+
+/// Eye and target of the views, by name.
+pub const VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
+    ("head-on", [0.0, 0.0, 1.91], [0.0; 3]),
+    ("rotated", [0.8974, 0.6533, 1.5544], [0.0; 3]),
+    // Rays of several octants, and parallel to faces.
+    ("inside", [0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]),
+    // The eye in the plane of a face: rays graze it.
+    ("grazing", [0.5, 0.2, 1.4], [0.5, 0.0, 0.0]),
+    ("corner", [1.3, 1.3, 1.3], [0.0; 3]),
+    ("behind", [-0.2, -1.5, -0.9], [0.1, 0.0, 0.0]),
+];
+
+/// The scene seen from one of [`VIEWS`].
+pub fn seen(scene: &Scene, (_, eye, target): (&str, [f64; 3], [f64; 3])) -> Scene {
+    let mut scene = scene.clone();
+    (scene.settings.camera.eye, scene.settings.camera.target) = (eye, target);
+    scene.camera = (&scene.settings.camera).into();
+    scene
+}
+
+/// The scene by another method.
+pub fn by(scene: &Scene, method: MethodName) -> Scene {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method;
+    scene
+}
+
+/// Forms of a method that the device has the features for.
+pub fn forms(device: &Device, method: MethodName) -> Vec<Option<Form>> {
+    let all = Form::all(method);
+    if all.is_empty() {
+        return vec![None];
+    }
+    all.into_iter().filter(|f| f.cull != Cull::Bounds || device.info.depth_bounds).map(Some).collect()
+}
+
+/// What one scene keeps on the device for all its views and methods.
+pub struct Stage {
+    device: Arc<Device>,
+    structures: Structures,
+    resident: Resident,
+    pub early_end: Option<EarlyEnd>,
+}
+
+/// A picture and what was counted.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    pub plan: Plan,
+    pub picture: Vec<[f32; 4]>,
+    pub run: FrameRun,
+}
+
+impl Stage {
+    pub fn new(device: &Arc<Device>) -> Self {
+        let resident = Resident::new(device);
+        Self { device: device.clone(), structures: Structures::default(), resident, early_end: None }
+    }
+
+    /// One frame with counts.
+    pub fn shoot(&mut self, scene: &Scene, form: Option<Form>) -> Shot {
+        let plan = plan::plan(scene, form).expect("a plan");
+        self.structures.prepare(scene, &plan);
+        self.resident.prepare(scene, &plan, &self.structures).expect("room on the device");
+        let mut frame =
+            GpuFrame::new(&self.device, scene, &plan, &self.resident, self.early_end).expect("a frame for the device");
+        let run = frame.run(Measure::Counts { statistics: false }).expect("a frame");
+        Shot { plan, picture: frame.picture().expect("a picture"), run }
+    }
+
+    /// The same in f64.
+    pub fn twin(&mut self, scene: &Scene, form: Option<Form>) -> CpuFrame {
+        let plan = plan::plan(scene, form).expect("a plan");
+        self.structures.prepare(scene, &plan);
+        cpu::run(scene, &plan, &self.structures)
+    }
+}
+
+/// Pixels whose bits differ.
+pub fn differing(a: &[[f32; 4]], b: &[[f32; 4]]) -> usize {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count()
+}
+
+/// What the self-check found on the device under test.
+pub fn checked(device: &Arc<Device>) -> &'static SelfCheck {
+    static CHECK: OnceLock<SelfCheck> = OnceLock::new();
+    CHECK.get_or_init(|| self_check(device).expect("the self-check runs"))
+}

@@ -1,0 +1,14 @@
+//! Tests that need a Vulkan device, in one program with a harness of its own: one folder or file for each module.
+
+mod cli;
+mod formulas;
+mod frame;
+mod harness;
+mod shader;
+mod vulkan;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    harness::run([formulas::tests(), vulkan::tests(), frame::tests(), cli::tests()].into_iter().flatten().collect())
+}

@@ -1,0 +1,359 @@
+//! Plans: what a scene needs and what is left out; needs no device. Their text stands in `tests/golden/plan_*.txt`.
+
+#[path = "plan/cases.rs"]
+mod cases;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use cases::{cases, scene, settings};
+use depthleap::pass::cull::Form;
+use depthleap::pass::resource::{Resource, Usage};
+use depthleap::pass::{Group, Step, Work};
+use depthleap::plan::{Plan, form, papers_form, plan};
+use depthleap::scene::Settings;
+use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, MethodName, Offset};
+use glam::DVec3;
+
+const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --test plan";
+
+/// Whether `text` is what the file holds. An update writes it, and fails all the same: somebody has to look.
+fn held(file: &Path, text: &str, update: bool) -> Result<(), String> {
+    let shown = file.display();
+    if update {
+        std::fs::write(file, text).map_err(|error| format!("{shown}: {error}"))?;
+        return Err(format!("{shown} was written; look at its diff, then run the test without UPDATE_GOLDEN"));
+    }
+    let golden = std::fs::read_to_string(file).map_err(|error| format!("{shown}: {error}; `{UPDATE}` makes it"))?;
+    if golden == text {
+        return Ok(());
+    }
+    let lines = golden.lines().zip(text.lines()).position(|(a, b)| a != b);
+    let at = lines.unwrap_or_else(|| golden.lines().count().min(text.lines().count()));
+    let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_owned();
+    Err(format!(
+        "{shown}, line {}:\n  golden {}\n  actual {}\nif this is right, `{UPDATE}` makes it anew",
+        at + 1,
+        line(&golden),
+        line(text)
+    ))
+}
+
+fn golden(name: &str) -> PathBuf {
+    Path::new("tests/golden").join(format!("plan_{name}.txt"))
+}
+
+#[test]
+fn plans_are_those_of_their_goldens() {
+    let update = std::env::var_os("UPDATE_GOLDEN").is_some();
+    let text = |plan: &Plan| plan.lines().iter().map(|line| format!("{line}\n")).collect::<String>();
+    let failed: Vec<String> =
+        cases().iter().filter_map(|case| held(&golden(case.name), &text(&case.plan), update).err()).collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    let known: BTreeSet<PathBuf> = cases().iter().map(|case| golden(case.name)).collect();
+    let files = std::fs::read_dir("tests/golden").unwrap().map(|entry| entry.unwrap().path());
+    let plans = files.filter(|file| file.to_string_lossy().contains("plan_"));
+    assert_eq!(plans.collect::<BTreeSet<_>>(), known, "every golden of a plan is held by a case");
+}
+
+#[test]
+fn missing_or_different_golden_fails_and_names_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plan.txt");
+    let missing = held(&file, "a\n", false).unwrap_err();
+    assert!(missing.contains("plan.txt") && missing.contains(UPDATE), "{missing}");
+    let written = held(&file, "a\nb\n", true).unwrap_err();
+    assert!(written.contains("look at its diff"), "{written}");
+    assert_eq!(held(&file, "a\nb\n", false), Ok(()));
+    for (other, line) in [("a\nc\n", "line 2"), ("a\n", "line 2"), ("a\nb\nc\n", "line 3"), ("", "line 1")] {
+        let different = held(&file, other, false).unwrap_err();
+        assert!(different.contains(line) && different.contains(UPDATE), "{different}");
+    }
+}
+
+/// Reads of what no step before has written and what is not there from the start.
+fn unwritten(steps: &[Step]) -> Vec<String> {
+    let mut there: BTreeSet<Resource> = [
+        Resource::Box,
+        Resource::Frame,
+        Resource::Volume,
+        Resource::Holes,
+        Resource::Transfer,
+        Resource::NearestDistance,
+        Resource::BlockTable,
+    ]
+    .into();
+    let mut found = Vec::new();
+    for step in steps {
+        let reads = step.accesses.iter().filter(|access| !access.usage.writes());
+        let missing = reads.filter(|access| !there.contains(&access.resource));
+        found.extend(missing.map(|access| format!("{} reads {}", step.name, access.resource.name())));
+        there.extend(step.accesses.iter().filter(|access| access.usage.writes()).map(|access| access.resource));
+    }
+    found
+}
+
+#[test]
+fn every_read_was_written_before_or_is_resident() {
+    for case in cases() {
+        assert_eq!(unwritten(&case.plan.steps), [""; 0], "{}", case.name);
+    }
+}
+
+#[test]
+fn read_before_its_write_is_seen() {
+    for (name, group, left) in [
+        ("nn-omni_bounds_fragdepth", "clear", "near_neighbor #0 reads accumulated"),
+        ("rc", "entry", "direction reads entry"),
+        ("rc-block", "block_range", "block_skip #1 reads block_range"),
+        ("nn-omni_ztest_copy", "mark_copy #0", "main_pass #0 reads stored"),
+    ] {
+        let mut steps = cases().into_iter().find(|case| case.name == name).unwrap().plan.steps;
+        steps.retain(|step| step.name != group);
+        assert_eq!(unwritten(&steps).first().map(String::as_str), Some(left));
+    }
+}
+
+#[test]
+fn names_of_steps_are_unique_and_numbers_those_of_their_pass() {
+    for case in cases() {
+        let names: BTreeSet<&str> = case.plan.steps.iter().map(|step| step.name.as_str()).collect();
+        assert_eq!(names.len(), case.plan.steps.len(), "{}", case.name);
+        for step in case.plan.steps.iter().filter(|step| step.name.contains('#')) {
+            assert_eq!(step.name, format!("{} #{}", step.pass_name(), step.pass));
+        }
+    }
+}
+
+fn planned(settings: &Settings) -> Plan {
+    let scene = scene(settings);
+    plan(&scene, form(&scene, papers_form(settings.method.name)).unwrap()).unwrap()
+}
+
+/// Scenes that need more, each beside the same with that need gone.
+fn needs() -> Vec<(&'static str, Settings, Settings)> {
+    let pair = |name, method, alter: fn(&mut Settings)| {
+        let less = settings(method);
+        let mut more = less.clone();
+        alter(&mut more);
+        (name, more, less)
+    };
+    use MethodName::{NnOmni, Rc, RcBlock, RcErt};
+    let mut pairs = vec![
+        pair("opacity correction", NnOmni, |s| s.sampling.step = 0.5),
+        pair("length of the last sample", NnOmni, |s| s.sampling.last = Last::Partial),
+        pair("interpolation in the shader", Rc, |s| s.sampling.filter = Filter::Exact),
+        pair("test before the first pass", RcBlock, |s| s.method.block_first = true),
+        pair("more passes", RcErt, |s| s.sampling.samples_per_pass = 2),
+        pair("marks on their way", NnOmni, |s| s.method.mark = Mark::Copy),
+    ];
+    for (more, less) in [(RcErt, Rc), (RcBlock, Rc), (RcBlock, RcErt), (NnOmni, Rc)] {
+        pairs.push((more.name(), settings(more), settings(less)));
+    }
+    pairs
+}
+
+#[test]
+fn nothing_a_scene_needs_less_adds_a_step() {
+    let passes = |plan: &Plan| plan.steps.iter().map(|s| s.pass_name().to_owned()).collect::<Vec<_>>();
+    let count = |list: &[String], name: &str| list.iter().filter(|other| *other == name).count();
+    let mut fewer = 0;
+    for (name, more, less) in needs() {
+        let (more, less) = (planned(&more), planned(&less));
+        assert!(less.steps.len() <= more.steps.len(), "without {name}");
+        fewer += usize::from(less.steps.len() < more.steps.len());
+        // What decides goes by another name in another method.
+        let (more, less) = (passes(&more), passes(&less));
+        for pass in less.iter().filter(|pass| !matches!(pass.as_str(), "termination" | "block_skip")) {
+            assert!(count(&less, pass) <= count(&more, pass), "without {name} there is more of {pass}");
+        }
+    }
+    assert!(fewer > 4, "{fewer}");
+}
+
+fn constant(plan: &Plan, name: &str) -> u32 {
+    let draws = plan.steps.iter().filter(|step| step.group == Group::Main);
+    let constants = draws.map(|step| match &step.work {
+        Work::Draw(draw) => draw.constants.iter().find(|(n, _)| *n == name).unwrap().1,
+        other => panic!("a main pass is {other:?}"),
+    });
+    let values: BTreeSet<u32> = constants.collect();
+    assert_eq!(values.len(), 1, "{name} differs between main passes");
+    values.into_iter().next().unwrap()
+}
+
+#[test]
+fn shader_code_a_scene_does_not_need_is_left_out() {
+    for (what, constant_name, alter) in [
+        ("opacity correction", "CORRECT_OPACITY", (|s| s.sampling.step = 0.5) as fn(&mut Settings)),
+        ("length of the last sample", "LAST_PARTIAL", |s| s.sampling.last = Last::Partial),
+        ("interpolation in the shader", "FILTER_EXACT", |s| s.sampling.filter = Filter::Exact),
+    ] {
+        let plain = settings(MethodName::Rc);
+        let mut needy = plain.clone();
+        alter(&mut needy);
+        for (settings, needed) in [(plain, false), (needy, true)] {
+            let plan = planned(&settings);
+            assert_eq!(constant(&plan, constant_name), u32::from(needed), "{what}");
+            assert_eq!(plan.left_out.iter().any(|left| left.what == what), !needed, "{what}");
+        }
+    }
+    // The papers take opacities as they stand, whatever the step.
+    let mut papers = settings(MethodName::Rc);
+    (papers.sampling.step, papers.sampling.alpha) = (0.5, Alpha::Paper);
+    assert_eq!(constant(&planned(&papers), "CORRECT_OPACITY"), 0);
+}
+
+#[test]
+fn whatever_is_left_out_has_a_reason() {
+    for case in cases() {
+        assert!(!case.plan.left_out.is_empty(), "{}", case.name);
+        let bare: Vec<_> = case.plan.left_out.iter().filter(|l| l.what.is_empty() || l.why.len() < 10).collect();
+        assert!(bare.is_empty(), "{}: {bare:?}", case.name);
+        // And nothing that is left out is used.
+        let uses = |r: Resource| case.plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        for (what, resource) in [
+            ("distance structure", Resource::NearestDistance),
+            ("block ranges and their table", Resource::BlockRange),
+            ("hole mask", Resource::Holes),
+        ] {
+            let left = case.plan.left_out.iter().any(|l| l.what == what);
+            assert_ne!(left, uses(resource), "{what} in {}", case.name);
+        }
+    }
+}
+
+#[test]
+fn camera_that_looks_away_has_an_empty_plan() {
+    for method in MethodName::ALL {
+        let mut settings = settings(method);
+        settings.camera.target = [0.0, 0.0, 4.0];
+        let plan = planned(&settings);
+        assert_eq!((plan.passes, plan.steps.len(), plan.view.longest_samples), (0, 0, 0));
+        let told: Vec<_> = plan.left_out.iter().map(|l| (l.what.as_str(), l.why.as_str())).collect();
+        assert_eq!(told, [("every pass", "no ray of this view meets the volume")]);
+    }
+}
+
+#[test]
+fn passes_are_those_of_the_longest_ray_of_this_view() {
+    let mut cube = settings(MethodName::Rc);
+    cube.volume.builtin = Some("blocks:256".to_owned());
+    let mut cube = scene(&cube);
+    cube.settings.image.size = [500, 500];
+    // N, and the samples of the longest ray, head on.
+    let mut seen = |distance: f64, fov_y: f64, step: f64, offset: Offset| {
+        (cube.camera.eye, cube.camera.fov_y) = (distance * DVec3::Z, fov_y);
+        (cube.settings.sampling.step, cube.settings.sampling.offset) = (step, offset);
+        let plan = plan(&cube, None).unwrap();
+        (plan.passes, plan.view.longest_samples)
+    };
+    // The longest ray goes from the front face through a corner of the back face, which lies 0.5 beside the axis and
+    // distance + 0.5 away: sqrt(1 + 2 (0.5 / 2.41)^2) of a side, 266.77 voxels; through the pixel beside that corner,
+    // 0.0008 off at most, 266.68. Both are 267 samples, 34 passes of 8.
+    assert_eq!(seen(1.91, 45.0, 1.0, Offset::Left), (34, 267));
+    // Half the step, twice the samples: 533.5 and 533.4.
+    assert_eq!(seen(1.91, 45.0, 0.5, Offset::Left), (67, 534));
+    // From far away rays run along the axis: 256 voxels and a little, so that the sample that begins at their end
+    // counts; sampled in the middle of each step there are 256, 32 passes of 8.
+    assert_eq!(seen(1000.0, 0.05, 1.0, Offset::Left), (33, 257));
+    assert_eq!(seen(1000.0, 0.05, 1.0, Offset::Midpoint), (32, 256));
+}
+
+#[test]
+fn forced_passes_are_as_many() {
+    for passes in [1, 2, 3, 40] {
+        let mut settings = settings(MethodName::NnOmni);
+        settings.sampling.passes = passes;
+        let plan = planned(&settings);
+        let main = plan.steps.iter().filter(|step| step.group == Group::Main).count();
+        assert_eq!((plan.passes, main), (passes, passes as usize));
+        assert!(!plan.left_out.iter().any(|left| left.what.starts_with("main pass")));
+    }
+}
+
+#[test]
+fn passes_that_only_other_views_need_are_left_out() {
+    // Three passes of 8 samples here, and four for the diagonal of 16 voxels, 27.7; of 4, five here and seven.
+    for (samples_per_pass, what) in [(8, "main pass 3"), (4, "main passes 5 to 6")] {
+        let mut settings = settings(MethodName::Rc);
+        settings.sampling.samples_per_pass = samples_per_pass;
+        let left = planned(&settings).left_out.into_iter().find(|left| left.what.starts_with("main pass")).unwrap();
+        assert_eq!((left.what.as_str(), left.why.as_str()), (what, "the longest ray of this view has 17 samples"));
+    }
+}
+
+#[test]
+fn too_many_passes_are_refused() {
+    let mut settings = settings(MethodName::Rc);
+    settings.sampling.samples_per_pass = 1;
+    settings.sampling.step = 2e-4;
+    let error = plan(&scene(&settings), None).unwrap_err().to_string();
+    assert!(error.contains("--step 0.0002 --samples-per-pass 1"), "{error}");
+    assert!(error.contains("at most 65536 are possible") && error.contains("longer steps"), "{error}");
+}
+
+#[test]
+fn rays_left_are_counted_every_eight_passes() {
+    for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+        let mut settings = settings(method);
+        settings.sampling.passes = 26;
+        let counted: Vec<u32> =
+            planned(&settings).steps.iter().filter(|s| s.group == Group::Alive).map(|s| s.pass).collect();
+        assert_eq!(counted, [8, 16, 24], "{}", method.name());
+    }
+}
+
+#[test]
+fn form_that_does_not_apply_is_refused_by_those_that_do() {
+    let mut settings = settings(MethodName::NnOmni);
+    for (cull, mark) in [(Cull::Ztest, Mark::Fragdepth), (Cull::Discard, Mark::FragdepthAny)] {
+        (settings.method.cull, settings.method.mark) = (cull, mark);
+        let error = form(&scene(&settings), papers_form(MethodName::NnOmni)).unwrap_err().to_string();
+        let asked = Form { cull, mark };
+        assert!(error.contains(&format!("--cull {} --mark {}", asked.cull_name(), asked.mark_name())), "{error}");
+        assert!(error.contains("method nn-omni has no such form"), "{error}");
+        for possible in ["bounds+fragdepth", "bounds+fragdepth-any", "bounds+copy", "ztest+copy", "discard+copy"] {
+            assert!(error.contains(possible), "{possible} is missing in: {error}");
+        }
+    }
+}
+
+#[test]
+fn what_a_scene_leaves_open_is_filled_in() {
+    use {Cull as C, Mark as M, MethodName as N};
+    let resolved = |method, cull, mark| {
+        let mut settings = settings(method);
+        (settings.method.cull, settings.method.mark) = (cull, mark);
+        form(&scene(&settings), papers_form(method)).unwrap().map(Form::name)
+    };
+    for (method, cull, mark, expected) in [
+        (N::Rc, C::Bounds, M::Copy, None),
+        (N::RcErt, C::Auto, M::Auto, Some("ztest+fragdepth")),
+        (N::RcErt, C::Bounds, M::Auto, Some("bounds+fragdepth")),
+        (N::RcBlock, C::Auto, M::Copy, Some("ztest+copy")),
+        (N::NnOmni, C::Auto, M::Auto, Some("bounds+fragdepth")),
+        // These two always mark by copy [DESIGN 2.3].
+        (N::NnOmni, C::Ztest, M::Auto, Some("ztest+copy")),
+        (N::NnOmni, C::Discard, M::Auto, Some("discard+copy")),
+        (N::NnOmni, C::Auto, M::FragdepthAny, Some("bounds+fragdepth-any")),
+        (N::NnOmni, C::Auto, M::Copy, Some("bounds+copy")),
+    ] {
+        assert_eq!(resolved(method, cull, mark).as_deref(), expected, "{method:?} {cull:?} {mark:?}");
+    }
+}
+
+#[test]
+fn every_form_of_a_method_has_a_plan_with_its_cull_and_mark() {
+    for method in MethodName::ALL {
+        for form in Form::all(method) {
+            let plan = plan(&scene(&settings(method)), Some(form)).unwrap();
+            let uses = |usage: Usage, resource| plan.steps.iter().any(|s| s.accesses.contains(&usage.of(resource)));
+            assert_eq!(uses(Usage::Color, Resource::Marks), form.mark == Mark::Copy, "{}", form.name());
+            assert_eq!(uses(Usage::DepthWrite, Resource::Stored), form.mark != Mark::Copy, "{}", form.name());
+            assert_eq!(uses(Usage::Sampled, Resource::Stored), form.cull == Cull::Discard, "{}", form.name());
+            let bounds = plan.steps.iter().any(|s| matches!(&s.work, Work::Draw(draw) if draw.test.bounds));
+            assert_eq!(bounds, form.cull == Cull::Bounds, "{}", form.name());
+        }
+    }
+}

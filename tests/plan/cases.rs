@@ -1,0 +1,50 @@
+//! Small scenes and their plans, one for each method and form that makes another plan.
+
+use depthleap::pass::cull::Form;
+use depthleap::plan::{Plan, plan};
+use depthleap::read;
+use depthleap::scene::settings::{Cull, Mark, MethodName};
+use depthleap::scene::{Scene, Settings};
+
+/// 16 voxels a side, three main passes, few pixels.
+pub fn settings(method: MethodName) -> Settings {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:16".to_owned());
+    settings.image.size = [32, 32];
+    settings.method.name = method;
+    settings
+}
+
+pub fn scene(settings: &Settings) -> Scene {
+    read::scene(settings).unwrap()
+}
+
+pub struct Case {
+    /// Of its golden, `tests/golden/plan_NAME.txt`.
+    pub name: &'static str,
+    pub plan: Plan,
+}
+
+pub fn cases() -> Vec<Case> {
+    use {Cull::*, Mark::*, MethodName::*};
+    let form = |cull, mark| Some(Form { cull, mark });
+    let rows = [
+        ("rc", Rc, None, false),
+        ("cpu", Cpu, form(Ztest, Fragdepth), false),
+        ("rc-ert", RcErt, form(Ztest, Fragdepth), false),
+        ("rc-ert_bounds_copy", RcErt, form(Bounds, Mark::Copy), false),
+        ("rc-block", RcBlock, form(Ztest, Fragdepth), false),
+        ("rc-block_first", RcBlock, form(Ztest, Fragdepth), true),
+        ("nn-omni_bounds_fragdepth", NnOmni, form(Bounds, Fragdepth), false),
+        ("nn-omni_bounds_fragdepth-any", NnOmni, form(Bounds, FragdepthAny), false),
+        ("nn-omni_bounds_copy", NnOmni, form(Bounds, Mark::Copy), false),
+        ("nn-omni_ztest_copy", NnOmni, form(Ztest, Mark::Copy), false),
+        ("nn-omni_discard_copy", NnOmni, form(Discard, Mark::Copy), false),
+    ];
+    rows.map(|(name, method, form, block_first)| {
+        let mut settings = settings(method);
+        settings.method.block_first = block_first;
+        Case { name, plan: plan(&scene(&settings), form).unwrap() }
+    })
+    .into()
+}

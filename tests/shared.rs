@@ -1,0 +1,321 @@
+//! Structs that Rust and the shaders both know: every member has the same name, offset and size on both sides, and
+//! the pieces of a transfer function say what the function says.
+
+use std::collections::HashMap;
+use std::mem::offset_of;
+
+use bytemuck::Zeroable;
+use depthleap::glsl;
+use depthleap::pass::{Work, main_pass};
+use depthleap::read;
+use depthleap::scene::transfer::{Knot, TransferFunction};
+use depthleap::scene::{Scene, Settings};
+use depthleap::shared::{Frame, Piece, Step, pieces};
+use rspirv::dr::{Instruction, Module, Operand, load_words};
+use rspirv::spirv::{Decoration, Op};
+
+/// A struct as one side has it.
+#[derive(Clone, Debug, PartialEq)]
+struct Layout {
+    members: Vec<Member>,
+    /// From one to the next.
+    bytes: usize,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Member {
+    name: String,
+    offset: usize,
+    bytes: usize,
+}
+
+/// Does not compile unless all members are named.
+macro_rules! layout {
+    ($kind:ident { $($member:ident),* $(,)? }) => {{
+        let $kind { $($member),* } = $kind::zeroed();
+        let members = vec![$(Member {
+            name: stringify!($member).to_owned(),
+            offset: offset_of!($kind, $member),
+            bytes: size_of_val(&$member),
+        }),*];
+        Layout { members, bytes: size_of::<$kind>() }
+    }};
+}
+
+fn frame() -> Layout {
+    layout!(Frame {
+        eye,
+        base,
+        right,
+        down,
+        extent,
+        inverse_extent,
+        voxel_step,
+        dims,
+        near,
+        inverse_step,
+        offset,
+        termination,
+        exponent,
+        segment_voxels,
+        passes,
+    })
+}
+
+fn step() -> Layout {
+    layout!(Step { bound, pass })
+}
+
+fn piece() -> Layout {
+    layout!(Piece { rgba, change, begin, inverse_length, unused })
+}
+
+/// What differs, one line each.
+fn differences(rust: &Layout, shader: &Layout) -> Vec<String> {
+    let mut found = Vec::new();
+    if rust.members.len() != shader.members.len() {
+        found.push(format!("{} members and {}", rust.members.len(), shader.members.len()));
+    }
+    if rust.bytes != shader.bytes {
+        found.push(format!("{} bytes and {}", rust.bytes, shader.bytes));
+    }
+    let pairs = rust.members.iter().zip(&shader.members).filter(|(a, b)| a != b);
+    found.extend(pairs.map(|(a, b)| format!("{a:?} and {b:?}")));
+    found
+}
+
+/// Types of a module by their ids.
+struct Types<'a> {
+    module: &'a Module,
+    by_id: HashMap<u32, &'a Instruction>,
+}
+
+impl<'a> Types<'a> {
+    fn of(module: &'a Module) -> Self {
+        let by_id = module.types_global_values.iter().filter_map(|one| Some((one.result_id?, one))).collect();
+        Self { module, by_id }
+    }
+
+    fn number(&self, id: u32, operand: usize) -> usize {
+        match self.by_id[&id].operands[operand] {
+            Operand::LiteralBit32(number) => number as usize,
+            Operand::IdRef(constant) => self.number(constant, 0),
+            ref other => panic!("{other:?} is no number"),
+        }
+    }
+
+    fn element(&self, id: u32) -> u32 {
+        self.by_id[&id].operands[0].unwrap_id_ref()
+    }
+
+    /// The value of a decoration, of a type or of its member.
+    fn decoration(&self, id: u32, member: Option<u32>, wanted: Decoration) -> Option<usize> {
+        self.module.annotations.iter().find_map(|one| match (one.class.opcode, &*one.operands, member) {
+            (Op::Decorate, [Operand::IdRef(of), Operand::Decoration(what), Operand::LiteralBit32(value)], None)
+                if (*of, *what) == (id, wanted) =>
+            {
+                Some(*value as usize)
+            }
+            (
+                Op::MemberDecorate,
+                [
+                    Operand::IdRef(of),
+                    Operand::LiteralBit32(at),
+                    Operand::Decoration(what),
+                    Operand::LiteralBit32(value),
+                ],
+                Some(member),
+            ) if (*of, *at, *what) == (id, member, wanted) => Some(*value as usize),
+            _ => None,
+        })
+    }
+
+    fn bytes(&self, id: u32) -> usize {
+        match self.by_id[&id].class.opcode {
+            Op::TypeFloat | Op::TypeInt => self.number(id, 0) / 8,
+            Op::TypeVector => self.bytes(self.element(id)) * self.number(id, 1),
+            Op::TypeArray => self.decoration(id, None, Decoration::ArrayStride).unwrap() * self.number(id, 1),
+            other => panic!("no member is of type {other:?}"),
+        }
+    }
+
+    /// The struct of that name, with the stride of arrays of it, if it is in any.
+    fn layout(&self, name: &str) -> Option<Layout> {
+        let named = |one: &&Instruction| one.operands.get(1) == Some(&Operand::LiteralString(name.to_owned()));
+        let names = self.module.debug_names.iter().filter(|one| one.class.opcode == Op::Name).filter(named);
+        // The compiler makes a second struct without offsets where a shader copies one.
+        let id = names
+            .map(|one| one.operands[0].unwrap_id_ref())
+            .find(|&id| self.decoration(id, Some(0), Decoration::Offset).is_some())?;
+        let kinds = self.by_id[&id].operands.iter().map(Operand::unwrap_id_ref);
+        let members: Vec<Member> = kinds
+            .enumerate()
+            .map(|(at, kind)| Member {
+                name: self.member_name(id, at as u32),
+                offset: self.decoration(id, Some(at as u32), Decoration::Offset).unwrap(),
+                bytes: self.bytes(kind),
+            })
+            .collect();
+        let arrays = self.by_id.iter().filter(|(_, one)| {
+            one.class.opcode == Op::TypeRuntimeArray && one.operands.first() == Some(&Operand::IdRef(id))
+        });
+        let strides: Vec<usize> =
+            arrays.filter_map(|(&array, _)| self.decoration(array, None, Decoration::ArrayStride)).collect();
+        let end = members.iter().map(|one| one.offset + one.bytes).max()?;
+        Some(Layout { members, bytes: strides.first().copied().unwrap_or(end) })
+    }
+
+    fn member_name(&self, id: u32, at: u32) -> String {
+        let wanted = [Operand::IdRef(id), Operand::LiteralBit32(at)];
+        let named = |one: &&Instruction| one.class.opcode == Op::MemberName && one.operands.starts_with(&wanted);
+        self.module.debug_names.iter().find(named).unwrap().operands[2].unwrap_literal_string().to_owned()
+    }
+}
+
+/// The struct in every module of the program that has it.
+fn in_shaders(name: &str) -> Vec<(&'static str, Layout)> {
+    let read = |module: &'static str| {
+        let words = load_words(glsl::module(module).unwrap()).unwrap();
+        Types::of(&words).layout(name).map(|layout| (module, layout))
+    };
+    glsl::names().filter_map(read).collect()
+}
+
+#[track_caller]
+fn assert_alike(name: &str, rust: &Layout, at_least_in: &str) {
+    let found = in_shaders(name);
+    assert!(found.iter().any(|(module, _)| *module == at_least_in), "{at_least_in} has no {name}");
+    for (module, shader) in found {
+        assert_eq!(differences(rust, &shader), [""; 0], "{name} in Rust and in {module}");
+    }
+}
+
+#[test]
+fn frame_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("Frame", &frame(), "main_pass.frag:plain");
+    assert_alike("Frame", &frame(), "entry.frag");
+}
+
+#[test]
+fn step_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("Step", &step(), "near_neighbor.frag:copy+discard");
+}
+
+#[test]
+fn piece_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("Piece", &piece(), "main_pass.frag:discard+holes");
+}
+
+#[test]
+fn every_alteration_of_a_layout_is_seen() {
+    for (name, rust) in [("Frame", frame()), ("Step", step()), ("Piece", piece())] {
+        let shader = in_shaders(name).swap_remove(0).1;
+        let altered = |alter: &dyn Fn(&mut Layout)| {
+            let mut copy = rust.clone();
+            alter(&mut copy);
+            differences(&copy, &shader)
+        };
+        for at in 0..rust.members.len() {
+            assert_eq!(altered(&|copy| copy.members[at].offset += 4).len(), 1, "{name}, offset of member {at}");
+            assert_eq!(altered(&|copy| copy.members[at].bytes *= 2).len(), 1, "{name}, size of member {at}");
+            assert_eq!(altered(&|copy| copy.members[at].name.push('s')).len(), 1, "{name}, name of member {at}");
+        }
+        assert_eq!(altered(&|copy| copy.members.swap(0, 1)).len(), 2, "{name}, two members swapped");
+        assert!(!altered(&|copy| drop(copy.members.pop())).is_empty(), "{name}, the last member gone");
+        assert_eq!(altered(&|copy| copy.bytes += 16).len(), 1, "{name}, its size");
+    }
+}
+
+struct Random(u64);
+
+impl Random {
+    /// Uniform in [0, 1) (splitmix64).
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() * n as f64) as usize
+    }
+}
+
+/// The specialization constants PIECES and SEARCH, as a main pass is given them.
+fn constants(transfer: &TransferFunction) -> (usize, usize) {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:4".to_owned());
+    let scene = Scene { transfer: transfer.clone(), ..read::scene(&settings).unwrap() };
+    let Work::Draw(draw) = main_pass::main_pass(&scene, 0, None).work else { panic!("a main pass draws") };
+    let value = |name: &str| draw.constants.iter().find(|(n, _)| *n == name).unwrap().1 as usize;
+    (value("PIECES"), value("SEARCH"))
+}
+
+/// `classify` of `glsl/shared/transfer.glsl`, line by line, in f32.
+fn classify(pieces: &[Piece], (count, search): (usize, usize), value: f32) -> [f32; 4] {
+    let mut at = 0;
+    let mut width = search;
+    while width > 0 {
+        if at + width < count && value >= pieces[at + width].begin {
+            at += width;
+        }
+        width >>= 1;
+    }
+    let piece = &pieces[at];
+    let weight = (value - piece.begin).max(0.0) * piece.inverse_length;
+    std::array::from_fn(|c| weight.mul_add(piece.change[c], piece.rgba[c]))
+}
+
+/// Rounding of one f32 operation, relative.
+const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
+
+/// Knots on a raster of x that f32 holds exactly, so that both sides agree where a jump is; jumps abound.
+fn random_transfer(random: &mut Random, knots: usize) -> TransferFunction {
+    let mut places: Vec<f64> = (0..knots).map(|_| random.below(33) as f64 / 32.0).collect();
+    places.sort_by(f64::total_cmp);
+    let knot = |x: f64| Knot { x, color: [0.0; 3].map(|_: f64| random.next()), opacity: random.next() };
+    TransferFunction::new("random", places.into_iter().map(knot).collect(), 1.0).unwrap()
+}
+
+#[test]
+fn pieces_say_what_the_transfer_function_says() {
+    let mut random = Random(11);
+    let mut jumps = 0;
+    for knots in (1..=40).chain(64..=66) {
+        let transfer = random_transfer(&mut random, knots);
+        let (pieces, constants) = (pieces(&transfer), constants(&transfer));
+        assert_eq!((pieces.len(), constants.0), (knots, knots));
+        jumps += transfer.jumps().count();
+        // Every knot and jump, just beside it, outside, and between.
+        let near = transfer.knots().iter().map(|k| k.x as f32).flat_map(|x| [x, x.next_down(), x.next_up()]);
+        let between = (0..400).map(|_| (1.4 * random.next() - 0.2) as f32);
+        for x in near.chain(between).chain([f32::MIN, -1.0, 2.0, f32::MAX]) {
+            let (found, expected) = (classify(&pieces, constants, x), transfer.evaluate(f64::from(x)));
+            for c in 0..4 {
+                // The weight has four roundings, the change two, the sum one; all numbers lie in [0, 1].
+                let error = (f64::from(found[c]) - expected[c]).abs();
+                assert!(error <= 8.0 * ROUNDING, "{knots} knots, component {c} at {x}: {found:?}, {expected:?}");
+            }
+        }
+    }
+    assert!(jumps > 100, "{jumps}");
+}
+
+#[test]
+fn knots_nearer_than_f32_can_tell_are_a_jump() {
+    let knot = |x: f64, opacity: f64| Knot { x, color: [0.5; 3], opacity };
+    let knots = vec![knot(0.0, 0.0), knot(0.5, 0.25), knot(0.5 + 1e-12, 0.75), knot(1.0, 1.0)];
+    let transfer = TransferFunction::new("near", knots, 1.0).unwrap();
+    let (pieces, constants) = (pieces(&transfer), constants(&transfer));
+    assert_eq!((pieces[1].inverse_length, pieces[1].change), (0.0, [0.0; 4]));
+    assert_eq!(classify(&pieces, constants, 0.5)[3], 0.75, "the later one counts");
+    assert!((classify(&pieces, constants, 0.5_f32.next_down())[3] - 0.25).abs() < 1e-6);
+}
+
+#[test]
+fn last_piece_is_endless() {
+    let last = *pieces(&TransferFunction::preset("linear", 1.0).unwrap().unwrap()).last().unwrap();
+    assert_eq!((last.rgba, last.change, last.inverse_length), ([1.0; 4], [0.0; 4], 0.0));
+}
