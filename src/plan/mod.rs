@@ -86,7 +86,8 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     let view = View::new(scene)?;
     let sampling = &scene.settings.sampling;
     let needed = view.longest_samples.div_ceil(sampling.samples_per_pass);
-    let passes = if sampling.passes > 0 { sampling.passes } else { needed };
+    // Forced passes do not run for nothing either.
+    let passes = if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed };
     if passes > MOST_PASSES {
         return Err(Error::usage(
             format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
@@ -105,7 +106,7 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     let mut left_out = Vec::new();
     let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
     let steps = if passes == 0 {
-        leave("every pass", "no ray of this view meets the volume".to_owned());
+        leave("every pass", "no ray of this view has a sample in the volume".to_owned());
         Vec::new()
     } else {
         passes::steps(scene, &view, passes, form)

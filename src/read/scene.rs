@@ -8,6 +8,7 @@ use serde_json::Value;
 use super::RawLayout;
 use crate::error::{Error, Result};
 use crate::scene::settings::{Settings, VolumeSettings};
+use crate::scene::transfer::REFERENCES;
 use crate::scene::{Camera, Field, Scene, Volume, builtin};
 
 /// The volume of a scene that names none.
@@ -149,10 +150,10 @@ fn check_ranges(settings: &Settings) -> Result<()> {
     )?;
     let reference = settings.transfer.reference;
     check(
-        reference.is_finite() && reference > 0.0,
+        REFERENCES.contains(&reference),
         "transfer.reference (--reference)",
         reference.to_string(),
-        "give a positive number of voxels".into(),
+        format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end()),
     )?;
     let range = settings.volume.range.unwrap_or_default();
     check(

@@ -22,13 +22,19 @@ pub struct TransferFunction {
     pub reference: f64,
 }
 
+/// Reference lengths whose ratio to a step survives single precision, in voxels.
+pub const REFERENCES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
+/// Places and colours beyond this do not survive the arithmetic of single precision.
+const LARGEST: f64 = 1e30;
+
 /// Names of the built-in transfer functions.
 pub const PRESETS: [&str; 4] = ["ramp", "surface", "haze", "linear"];
 
 impl TransferFunction {
     /// # Errors
-    /// When there is no knot, a number is not finite, an opacity lies outside [0, 1], a colour is negative,
-    /// `x` falls from one knot to the next, or the reference length is not positive.
+    /// When there is no knot, a number is not finite or beyond single precision, an opacity lies outside [0, 1], a colour
+    /// is negative, `x` falls from one knot to the next, or the reference length is not one of [`REFERENCES`].
     pub fn new(name: impl Into<String>, knots: Vec<Knot>, reference: f64) -> Result<Self> {
         let name = name.into();
         let bad =
@@ -36,14 +42,15 @@ impl TransferFunction {
         if knots.is_empty() {
             return bad("has no points".into(), "give at least one, [x, r, g, b, opacity]");
         }
-        if !(reference.is_finite() && reference > 0.0) {
-            return bad(format!("has the reference length {reference}"), "give a positive number of voxels");
+        if !REFERENCES.contains(&reference) {
+            let remedy = format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end());
+            return bad(format!("has the reference length {reference}"), &remedy);
         }
         for (i, knot) in knots.iter().enumerate() {
-            if !(knot.x.is_finite() && knot.color.iter().all(|c| c.is_finite() && *c >= 0.0)) {
+            if !(knot.x.abs() <= LARGEST && knot.color.iter().all(|c| (0.0..=LARGEST).contains(c))) {
                 return bad(
                     format!("point {i} has x = {} and colour {:?}", knot.x, knot.color),
-                    "give finite numbers, colours of at least 0",
+                    &format!("give numbers up to {LARGEST:e}, colours of at least 0"),
                 );
             }
             if !(0.0..=1.0).contains(&knot.opacity) {

@@ -34,6 +34,7 @@ pub fn tests() -> Vec<Test> {
         ("eye far away", format!("{SHELLS} --eye 3000,2500,3100 --fov 0.02")),
         ("eye too far away to see anything", format!("{SHELLS} --eye 3000,2500,3100")),
         ("looking away", format!("{SHELLS} --eye 0,0.1,2 --target 0,0,5")),
+        ("looking away with passes forced", format!("{SHELLS} --eye 0,0.1,2 --target 0,0,5 --passes 5")),
         ("field of view of 1", format!("{SHELLS} {VIEW} --fov 1")),
         ("one pixel", format!("{SHELLS} {VIEW} --viewport 1x1")),
         ("1x64 pixels", format!("{SHELLS} {VIEW} --viewport 1x64")),
