@@ -121,7 +121,7 @@ fn repeated_frames_are_the_same(device: &Arc<Device>) {
         structures.prepare(&scene, &plan);
         let mut resident = Resident::new(device);
         resident.prepare(&scene, &plan, &structures).expect("room");
-        let mut frame = GpuFrame::new(device, &scene, &plan, &resident, None).expect("a frame");
+        let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
         let mut take = || {
             frame.run(Measure::Nothing).expect("a frame");
             frame.picture().expect("a picture")
@@ -148,7 +148,7 @@ fn times_have_every_step_that_ran(device: &Arc<Device>) {
     structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
     resident.prepare(&scene, &plan, &structures).expect("room");
-    let mut frame = GpuFrame::new(device, &scene, &plan, &resident, None).expect("a frame");
+    let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
     let run = frame.run(Measure::Times).expect("a frame");
     if device.graphics.timestamp_valid_bits == 0 {
         assert_eq!((run.gpu_total_ms, run.step_ms.len()), (None, 0));
