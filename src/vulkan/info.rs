@@ -60,6 +60,8 @@ pub struct DeviceInfo {
     pub max_image_2d: u32,
     /// Pixels, width and height.
     pub max_viewport: [u32; 2],
+    /// The rasteriser moves corners to a raster of 2^-bits pixels; at least 4.
+    pub sub_pixel_bits: u32,
     /// Bytes.
     pub max_storage_buffer: u64,
     /// Bytes of the device's own memory.
@@ -143,6 +145,7 @@ fn describe(raw: &ash::Instance, index: usize, physical: vk::PhysicalDevice) -> 
             .min(limits.max_framebuffer_width)
             .min(limits.max_framebuffer_height),
         max_viewport: limits.max_viewport_dimensions,
+        sub_pixel_bits: limits.sub_pixel_precision_bits,
         max_storage_buffer: limits.max_storage_buffer_range.into(),
         memory_bytes: memory
             .memory_heaps_as_slice()
