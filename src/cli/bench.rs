@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use super::open::DeviceOptions;
 use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
 use super::output::{Progress, settings_in};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::frame::Verdict;
 use crate::measure::error::difference;
 use crate::measure::picture::Picture;
@@ -123,6 +123,7 @@ impl Bench {
 
     fn write(&self, measured: Vec<Measured>) -> Result<()> {
         let mut runs = Vec::new();
+        let broken: Vec<String> = measured.iter().filter_map(broken_law).collect();
         write::create_folder(&self.output)?;
         let (mut pictures, mut differences): (Vec<(usize, Picture)>, Vec<Difference>) = (Vec::new(), Vec::new());
         for (i, one) in measured.into_iter().enumerate() {
@@ -149,8 +150,22 @@ impl Bench {
         let report = self.output.join("report.html");
         write_atomically(&report, report_html(&input)?.as_bytes())?;
         let text = format!("{}\nReport: {}\n", table::table(&results.runs), report.display());
-        write::write_standard_output(text.as_bytes())
+        write::write_standard_output(text.as_bytes())?;
+        match broken.first() {
+            None => Ok(()),
+            Some(first) => Err(Error::check(
+                "law of skipping",
+                format!("{} run(s) changed the picture, the first: {first}", broken.len()),
+                "this is a bug in depthleap, in the driver or in a changed shader; the report has the pictures",
+            )),
+        }
     }
+}
+
+/// A run whose form passed the self-check and whose picture skipping changed nevertheless.
+fn broken_law(one: &Measured) -> Option<String> {
+    let differing = one.differing.filter(|n| one.trusted && *n > 0)?;
+    Some(format!("{}, {}: {differing} pixels", one.run.scene, one.run.method))
 }
 
 fn available(checked: Option<&Checked>, form: Form) -> bool {

@@ -95,7 +95,8 @@ impl Render {
         let effort = Effort { warmups: 1, repeats: self.repeats, reference: self.reference_error };
         let progress = Progress::new();
         let mut runner = Runner::new(opened.as_ref(), scene, scene_name(settings));
-        let mut measured = runner.measure(std::slice::from_ref(&settings.method), effort, &|what| progress.say(what))?;
+        let mut measured =
+            runner.measure(std::slice::from_ref(&settings.method), effort, &|what| progress.say(what))?;
         drop((runner, progress));
         opened.map_or(Ok(()), |checked| self.device.close(checked))?;
         measured.pop().ok_or_else(|| Error::check("render", "no frame was run", "please report this"))

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::pipelines::PipelineKey;
 use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
-use crate::glsl;
 use crate::pass::resource::{Resource, Usage};
 use crate::pass::{Draw, Faces, Step, Work};
 use crate::plan::{Plan, Region};
@@ -16,8 +16,8 @@ use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Filter};
 use crate::shared;
 use crate::vulkan::{
-    Blend, Buffer, BufferInfo, DepthState, DescriptorSet, Device, Framebuffer, GraphicsPipeline, GraphicsPipelineInfo,
-    Image, ImageInfo, Place, RenderPass, RenderPassInfo, Sampler, Shader,
+    Buffer, BufferInfo, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, Place, RenderPass,
+    RenderPassInfo, Sampler,
 };
 
 /// The objects of a frame.
@@ -50,28 +50,15 @@ pub struct CompiledDraw {
     pub vertices: u32,
 }
 
-/// Steps that agree in all of this share one pipeline.
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct PipelineKey {
-    render_pass: RenderPassInfo,
-    shader: Option<String>,
-    constants: Vec<(&'static str, u32)>,
-    test: crate::pass::DepthTest,
-    blend: bool,
-}
-
 struct Compiler<'a> {
     device: &'a Arc<Device>,
     plan: &'a Plan,
-    resident: &'a Resident,
+    resident: &'a mut Resident,
     targets: HashMap<Resource, Image>,
     frame: Buffer,
     linear: Option<Sampler>,
     nearest: Sampler,
-    shaders: HashMap<String, Arc<Shader>>,
-    render_passes: HashMap<RenderPassInfo, Arc<RenderPass>>,
     framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
-    pipelines: HashMap<PipelineKey, Arc<GraphicsPipeline>>,
     sets: HashMap<PipelineKey, Arc<DescriptorSet>>,
 }
 
@@ -93,7 +80,7 @@ pub fn target_format(resource: Resource, accumulate: Accumulate) -> vk::Format {
 ///
 /// # Errors
 /// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
-pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &Resident) -> Result<Compiled> {
+pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut Resident) -> Result<Compiled> {
     let steps: Vec<Step> = plan.steps.iter().filter(|s| !matches!(s.work, Work::Dispatch { .. })).cloned().collect();
     let accumulate = scene.settings.image.accumulate;
     let scheduled = schedule(&steps, |r| target_format(r, accumulate));
@@ -108,10 +95,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &Resi
             Filter::Exact => None,
         },
         nearest: Sampler::new(device, "nearest", false)?,
-        shaders: HashMap::new(),
-        render_passes: HashMap::new(),
         framebuffers: HashMap::new(),
-        pipelines: HashMap::new(),
         sets: HashMap::new(),
     };
     let mut compiled = Vec::with_capacity(steps.len());
@@ -232,7 +216,7 @@ fn vertex_buffer(device: &Arc<Device>, plan: &Plan) -> Result<Option<Buffer>> {
 
 impl Compiler<'_> {
     fn draw(&mut self, step: &Step, draw: &Draw, info: RenderPassInfo, targets: &[Resource]) -> Result<CompiledDraw> {
-        let render_pass = self.render_pass(&info)?;
+        let render_pass = self.resident.pipelines.render_pass(&info)?;
         let framebuffer = self.framebuffer(&render_pass, targets)?;
         let key = PipelineKey {
             render_pass: info,
@@ -241,7 +225,7 @@ impl Compiler<'_> {
             test: draw.test,
             blend: draw.blend,
         };
-        let pipeline = self.pipeline(&key, step, &render_pass)?;
+        let pipeline = self.resident.pipelines.pipeline(&key, step.pass_name())?;
         let set = self.set(&key, step, &pipeline)?;
         let (front, back) = (self.plan.view.front.len() as u32, self.plan.view.back.len() as u32);
         let (first_vertex, vertices) = match draw.faces {
@@ -259,15 +243,6 @@ impl Compiler<'_> {
         })
     }
 
-    fn render_pass(&mut self, info: &RenderPassInfo) -> Result<Arc<RenderPass>> {
-        if let Some(known) = self.render_passes.get(info) {
-            return Ok(known.clone());
-        }
-        let made = Arc::new(RenderPass::new(self.device, info.clone())?);
-        self.render_passes.insert(info.clone(), made.clone());
-        Ok(made)
-    }
-
     fn framebuffer(&mut self, pass: &Arc<RenderPass>, targets: &[Resource]) -> Result<Arc<Framebuffer>> {
         let key = (pass.info.clone(), targets.to_vec());
         if let Some(known) = self.framebuffers.get(&key) {
@@ -276,46 +251,6 @@ impl Compiler<'_> {
         let images: Vec<&Image> = targets.iter().map(|t| &self.targets[t]).collect();
         let made = Arc::new(Framebuffer::new(self.device, &pass.info.name, pass, &images, self.plan.view.size)?);
         self.framebuffers.insert(key, made.clone());
-        Ok(made)
-    }
-
-    fn shader(&mut self, name: &str) -> Result<Arc<Shader>> {
-        if let Some(known) = self.shaders.get(name) {
-            return Ok(known.clone());
-        }
-        let made = Arc::new(Shader::new(name, &glsl::module(name)?)?);
-        self.shaders.insert(name.to_owned(), made.clone());
-        Ok(made)
-    }
-
-    fn pipeline(&mut self, key: &PipelineKey, step: &Step, pass: &RenderPass) -> Result<Arc<GraphicsPipeline>> {
-        if let Some(known) = self.pipelines.get(key) {
-            return Ok(known.clone());
-        }
-        let vertex = self.shader("box.vert")?;
-        let fragment = key.shader.as_deref().map(|name| self.shader(name)).transpose()?;
-        // Constants that a variant has no use for are gone from its SPIR-V.
-        let known = |name: &str| fragment.iter().any(|f| f.spec_constants.iter().any(|(n, _)| n == name));
-        let constants: Vec<(&str, u32)> = key.constants.iter().copied().filter(|(name, _)| known(name)).collect();
-        let made = Arc::new(GraphicsPipeline::new(
-            self.device,
-            &GraphicsPipelineInfo {
-                name: step.pass_name(),
-                vertex: &vertex,
-                fragment: fragment.as_deref(),
-                constants: &constants,
-                render_pass: pass,
-                vertex_format: Some(vk::Format::R32G32B32_SFLOAT),
-                depth: DepthState {
-                    test: key.test.compare.is_some(),
-                    write: key.test.write,
-                    compare: key.test.compare.unwrap_or(vk::CompareOp::ALWAYS),
-                    bounds: key.test.bounds,
-                },
-                blend: if key.blend { Blend::Over } else { Blend::Replace },
-            },
-        )?);
-        self.pipelines.insert(key.clone(), made.clone());
         Ok(made)
     }
 

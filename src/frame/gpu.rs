@@ -85,7 +85,7 @@ impl GpuFrame {
         device: &Arc<Device>,
         scene: &Scene,
         plan: &Plan,
-        resident: &Resident,
+        resident: &mut Resident,
         early_end: Option<EarlyEnd>,
     ) -> Result<Self> {
         let compiled = compile(device, scene, plan, resident)?;

@@ -3,6 +3,7 @@
 pub mod compile;
 pub mod cpu;
 pub mod gpu;
+mod pipelines;
 pub mod resident;
 pub mod schedule;
 pub mod self_check;

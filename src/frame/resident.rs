@@ -1,10 +1,11 @@
-//! What stays on the device while frames change: the volume, the transfer function, structures.
+//! What stays on the device while frames change: the volume, the transfer function, structures, pipelines.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use ash::vk;
 
+use super::pipelines::Pipelines;
 use super::structures::Structures;
 use super::texture::Texels;
 use super::upload;
@@ -23,6 +24,7 @@ pub struct Resident {
     images: HashMap<Resource, Image>,
     buffers: HashMap<Resource, Buffer>,
     texels: Option<Texels>,
+    pub(super) pipelines: Pipelines,
     /// Time to build structures on the device, milliseconds of CPU time.
     pub build_ms: HashMap<Resource, f64>,
 }
@@ -34,6 +36,7 @@ impl Resident {
             images: HashMap::new(),
             buffers: HashMap::new(),
             texels: None,
+            pipelines: Pipelines::new(device),
             build_ms: HashMap::new(),
         }
     }

@@ -70,6 +70,8 @@ fn forms() -> Vec<Form> {
 pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
     let scenes = [check_scene(20.0, 10.0, 1.9)?, check_scene(110.0, -35.0, 1.4)?];
     let mut found: BTreeMap<Form, Verdict> = BTreeMap::new();
+    // The scenes differ in their view only.
+    let mut resident = Resident::new(device);
     let mut statistics = (!device.info.pipeline_statistics).then(|| "the device has none".to_owned());
     for scene in &scenes {
         let rule = Rule::new(scene)?;
@@ -82,7 +84,7 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
                 *verdict = Verdict::Missing("no depth bounds test".to_owned());
                 continue;
             }
-            let run = run_form(device, scene, form, &rule.structures)?;
+            let run = run_form(&mut resident, device, scene, form, &rule.structures)?;
             if let Some(difference) = rule.difference(&run) {
                 *verdict = Verdict::Wrong(difference);
             } else if form.cull == Cull::Ztest && statistics.is_none() {
@@ -113,11 +115,16 @@ struct Run {
     invocations: Option<Counts>,
 }
 
-fn run_form(device: &Arc<Device>, scene: &Scene, form: Form, structures: &Structures) -> Result<Run> {
+fn run_form(
+    resident: &mut Resident,
+    device: &Arc<Device>,
+    scene: &Scene,
+    form: Form,
+    structures: &Structures,
+) -> Result<Run> {
     let plan = plan::plan(scene, Some(form))?;
-    let mut resident = Resident::new(device);
     resident.prepare(scene, &plan, structures)?;
-    let mut frame = GpuFrame::new(device, scene, &plan, &resident, None)?;
+    let mut frame = GpuFrame::new(device, scene, &plan, resident, None)?;
     let run = frame.run(Measure::Counts { statistics: true })?;
     Ok(Run { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default(), invocations: run.invocations })
 }

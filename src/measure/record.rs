@@ -29,7 +29,7 @@
 //! | `frame_ms` | number or null, ms | wall time of a frame |
 //! | `cpu_ms` | number or null, ms | CPU time of the process for a frame, all threads together |
 //! | `record_ms` | number or null, ms | CPU time for recording and submitting a frame |
-//! | `build_ms` | number or null, ms | time for building the structures; null where the method has none |
+//! | `build_ms` | number or null, ms | CPU time of the process for building the structures; null where the method has none |
 //! | `bytes` | integer, bytes | size of the structures |
 //! | `memory` | map text to integer, bytes | size of every resource of the frame by its name |
 //! | `ideal` | {`main`} or null | main fragments no skipping can go below: those whose segment holds a contributing sample |

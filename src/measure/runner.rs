@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
+use super::comparison;
 use super::error::compare;
 use super::limits;
 use super::picture::Picture;
@@ -47,6 +48,10 @@ pub struct Measured {
     pub picture: Picture,
     /// The f64 twin's picture, where there is one.
     pub reference: Option<Picture>,
+    /// Whether the self-check found the form right (or there is nothing to be wrong).
+    pub trusted: bool,
+    /// Pixels whose bits are not those of the first run that ends rays early too; none where there is no such run.
+    pub differing: Option<u64>,
 }
 
 /// One scene on one device; what its methods share is made once.
@@ -111,7 +116,10 @@ impl<'a> Runner<'a> {
         if effort.reference {
             progress(&format!("{}: f64 reference", self.name));
         }
-        entries.into_iter().map(|entry| self.finish(entry, effort)).collect()
+        let mut measured: Vec<Measured> =
+            entries.into_iter().map(|entry| self.finish(entry, effort)).collect::<Result<_>>()?;
+        law_of_skipping(&mut measured);
+        Ok(measured)
     }
 
     /// Whether every one of `methods` can be run, before any is.
@@ -220,7 +228,9 @@ impl<'a> Runner<'a> {
             notes: self.notes(&entry),
             settings: entry.scene.settings.clone(),
         };
-        Ok(Measured { run, picture: entry.picture, reference })
+        let verdict = self.checked.zip(form).and_then(|(c, form)| c.check.forms.get(&form));
+        let trusted = !matches!(verdict, Some(Verdict::Wrong(_)));
+        Ok(Measured { run, picture: entry.picture, reference, trusted, differing: None })
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
@@ -268,6 +278,26 @@ impl<'a> Runner<'a> {
         let shared = there.filter(|(r, _)| entry.frame.is_some() && reads(*r));
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
+    }
+}
+
+/// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
+/// and notes what was found.
+pub fn law_of_skipping(measured: &mut [Measured]) {
+    let ends_early = |one: &Measured| one.run.cull.is_some();
+    let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
+    let Some(rule) = ended_early.next() else { return };
+    let name =
+        |run: &Run| comparison::forms(run).map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
+    let rule_name = name(&rule.run);
+    for one in ended_early {
+        let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);
+        let differing = pairs.filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count() as u64;
+        one.differing = Some(differing);
+        one.run.notes.push(match differing {
+            0 => format!("the picture is that of {rule_name}, bit for bit"),
+            n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
+        });
     }
 }
 

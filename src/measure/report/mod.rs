@@ -83,7 +83,7 @@ fn head(page: &mut Html, input: &ReportInput) {
         for (form, verdict) in &run.self_check {
             let class = match verdict.as_str() {
                 "right" => "right",
-                "not available" => "absent",
+                absent if absent.starts_with("not available") => "absent",
                 _ => "wrong",
             };
             // Writing to a String cannot fail.

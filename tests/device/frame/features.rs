@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use depthleap::frame::{EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
+use depthleap::measure::runner::{Checked, Effort, Runner, law_of_skipping};
 use depthleap::pass::cull::{Form, Mark};
 use depthleap::plan::{self, papers_form};
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{Accumulate, Cull, Filter, Last, MethodName, VolumeTexture};
+use depthleap::scene::settings::{Accumulate, Cull, Filter, Last, MethodName, MethodSettings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, Volume};
 use depthleap::vulkan::Device;
@@ -29,6 +30,7 @@ pub fn tests() -> Vec<Test> {
         test("accumulation_formats_differ_by_their_rounding", accumulation_formats_differ_by_their_rounding),
         test("holes_are_transparent", holes_are_transparent),
         test("omni_runs_fewer_fragments_than_blocks", omni_runs_fewer_fragments_than_blocks),
+        test("runs_are_held_against_the_law_of_skipping", runs_are_held_against_the_law_of_skipping),
     ]
 }
 
@@ -119,7 +121,7 @@ fn repeated_frames_are_the_same(device: &Arc<Device>) {
         structures.prepare(&scene, &plan);
         let mut resident = Resident::new(device);
         resident.prepare(&scene, &plan, &structures).expect("room");
-        let mut frame = GpuFrame::new(device, &scene, &plan, &resident, None).expect("a frame");
+        let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
         let mut take = || {
             frame.run(Measure::Nothing).expect("a frame");
             frame.picture().expect("a picture")
@@ -146,7 +148,7 @@ fn times_have_every_step_that_ran(device: &Arc<Device>) {
     structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
     resident.prepare(&scene, &plan, &structures).expect("room");
-    let mut frame = GpuFrame::new(device, &scene, &plan, &resident, None).expect("a frame");
+    let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
     let run = frame.run(Measure::Times).expect("a frame");
     if device.graphics.timestamp_valid_bits == 0 {
         assert_eq!((run.gpu_total_ms, run.step_ms.len()), (None, 0));
@@ -232,4 +234,21 @@ fn omni_runs_fewer_fragments_than_blocks(device: &Arc<Device>) {
         assert!(sum(&omni.main) < sum(&block.main) && sum(&omni.intermediate) < sum(&block.intermediate) / 2);
         assert!(ideal <= sum(&omni.main), "ideal {ideal}, omni {}", sum(&omni.main));
     }
+}
+
+fn runs_are_held_against_the_law_of_skipping(device: &Arc<Device>) {
+    let scene = scene("shells:24", "ramp", |_| {});
+    let checked = Checked { device: device.clone(), check: checked(device).clone(), early_end: None };
+    let methods = [MethodName::Rc, MethodName::RcErt, MethodName::NnOmni]
+        .map(|name| MethodSettings { name, ..MethodSettings::default() });
+    let effort = Effort { warmups: 0, repeats: 0, reference: false };
+    let mut measured =
+        Runner::new(Some(&checked), scene, "shells".to_owned()).measure(&methods, effort, &|_| {}).expect("runs");
+    assert_eq!(measured.iter().map(|one| one.differing).collect::<Vec<_>>(), [None, None, Some(0)]);
+    assert!(measured[2].run.notes.iter().any(|note| note.contains("that of rc-ert") && note.contains("bit for bit")));
+
+    measured[2].picture.pixels[77][3] += 0.5;
+    law_of_skipping(&mut measured);
+    assert_eq!(measured[2].differing, Some(1));
+    assert!(measured[2].run.notes.iter().any(|note| note.contains("1 pixels differ")), "{:?}", measured[2].run.notes);
 }

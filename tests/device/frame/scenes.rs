@@ -97,8 +97,8 @@ impl Stage {
         let plan = plan::plan(scene, form).expect("a plan");
         self.structures.prepare(scene, &plan);
         self.resident.prepare(scene, &plan, &self.structures).expect("room on the device");
-        let mut frame =
-            GpuFrame::new(&self.device, scene, &plan, &self.resident, self.early_end).expect("a frame for the device");
+        let mut frame = GpuFrame::new(&self.device, scene, &plan, &mut self.resident, self.early_end)
+            .expect("a frame for the device");
         let run = frame.run(Measure::Counts { statistics: false }).expect("a frame");
         Shot { plan, picture: frame.picture().expect("a picture"), run }
     }
