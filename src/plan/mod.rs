@@ -106,7 +106,7 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     let mut left_out = Vec::new();
     let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
     let steps = if passes == 0 {
-        leave("every pass", "no ray of this view has a sample in the volume".to_owned());
+        leave("every pass", "no ray of this view meets the volume".to_owned());
         Vec::new()
     } else {
         passes::steps(scene, &view, passes, form)
