@@ -54,8 +54,12 @@ fn add(mine: &mut [u64], theirs: &[u64]) {
     mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += b);
 }
 
-/// Runs the plan.
-pub fn run(scene: &Scene, plan: &Plan, structures: &Structures) -> CpuFrame {
+/// The raster that most devices move corners to, in pixels; where no device is asked.
+pub const RASTER: f64 = 1.0 / 256.0;
+
+/// Runs the plan. What is undecided depends on the device's `raster`, in pixels: see [`RASTER`] and
+/// [`DeviceInfo::raster`](crate::vulkan::DeviceInfo::raster).
+pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, raster: f64) -> CpuFrame {
     let height = plan.view.size[1];
     let twin = Twin {
         scene,
@@ -64,7 +68,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures) -> CpuFrame {
         distance: structures.distance.as_ref().map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
     };
-    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row)).collect();
+    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, raster, row)).collect();
     let mut frame = CpuFrame::empty(plan);
     for row in rows {
         frame.pixels.extend(row.pixels);
@@ -101,10 +105,10 @@ impl CpuFrame {
     }
 }
 
-fn run_row(twin: &Twin, plan: &Plan, row: u32) -> CpuFrame {
+fn run_row(twin: &Twin, plan: &Plan, raster: f64, row: u32) -> CpuFrame {
     let mut frame = CpuFrame::empty(plan);
     for column in 0..plan.view.size[0] {
-        let (covered, mut undecided) = coverage(twin, column, row);
+        let (covered, mut undecided) = coverage(twin, raster, column, row);
         let mut pixel = Pixel { column, row, undecided: false, ..Pixel::default() };
         if covered {
             let mut counted = 0;
@@ -135,17 +139,17 @@ fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
     draw.faces == Faces::Back || pixel.stored <= f64::from(draw.bound)
 }
 
-/// Whether the box covers the pixel's centre, and whether that is open: a rasteriser moves corners to a raster
-/// of 1/256 pixel and decides by that.
-fn coverage(twin: &Twin, column: u32, row: u32) -> (bool, bool) {
-    /// Moved corners shift an edge by less than this many pixels.
-    const EDGE: f64 = 1.0 / 128.0;
+/// Whether the box covers the pixel's centre, and whether that is open: a rasteriser moves corners to a raster and
+/// decides by that.
+fn coverage(twin: &Twin, raster: f64, column: u32, row: u32) -> (bool, bool) {
+    // Moved corners shift an edge by less than this many pixels.
+    let edge = 2.0 * raster;
     let half = 0.5 * twin.scene.field.extent();
     let hit = |x: f64, y: f64| {
         let direction = twin.rays.direction(column, row) + x * twin.rays.right + y * twin.rays.down;
         box_interval(twin.rays.eye, direction, half, twin.rays.near).is_some()
     };
     let centre = hit(0.0, 0.0);
-    let around = [(EDGE, EDGE), (-EDGE, EDGE), (EDGE, -EDGE), (-EDGE, -EDGE)];
+    let around = [(edge, edge), (-edge, edge), (edge, -edge), (-edge, -edge)];
     (centre, around.into_iter().any(|(x, y)| hit(x, y) != centre))
 }

@@ -60,6 +60,8 @@ pub struct DeviceInfo {
     pub max_image_2d: u32,
     /// Pixels, width and height.
     pub max_viewport: [u32; 2],
+    /// Fraction bits of a corner's place in pixels.
+    pub sub_pixel_bits: u32,
     /// Bytes.
     pub max_storage_buffer: u64,
     /// Bytes of the device's own memory.
@@ -84,6 +86,11 @@ impl Instance {
 }
 
 impl DeviceInfo {
+    /// The raster that corners of triangles are moved to, in pixels.
+    pub fn raster(&self) -> f64 {
+        f64::from(self.sub_pixel_bits).exp2().recip()
+    }
+
     /// The family for graphics: one that computes too, if there is one.
     pub(super) fn graphics_family(&self) -> Option<usize> {
         let has = |wanted| self.queue_families.iter().position(|family| family.flags.contains(wanted));
@@ -143,6 +150,7 @@ fn describe(raw: &ash::Instance, index: usize, physical: vk::PhysicalDevice) -> 
             .min(limits.max_framebuffer_width)
             .min(limits.max_framebuffer_height),
         max_viewport: limits.max_viewport_dimensions,
+        sub_pixel_bits: limits.sub_pixel_precision_bits,
         max_storage_buffer: limits.max_storage_buffer_range.into(),
         memory_bytes: memory
             .memory_heaps_as_slice()

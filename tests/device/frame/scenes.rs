@@ -107,7 +107,7 @@ impl Stage {
     pub fn twin(&mut self, scene: &Scene, form: Option<Form>) -> CpuFrame {
         let plan = plan::plan(scene, form).expect("a plan");
         self.structures.prepare(scene, &plan);
-        cpu::run(scene, &plan, &self.structures)
+        cpu::run(scene, &plan, &self.structures, self.device.info.raster())
     }
 }
 
