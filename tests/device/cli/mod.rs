@@ -79,7 +79,11 @@ fn unknown_device(device: &Arc<Device>) {
 
 fn bounds_without_the_feature(device: &Arc<Device>) {
     let place = Place::new();
-    for arguments in ["render -o a.png --cull bounds", "bench -o out --method nn-omni --cull bounds --mark copy"] {
+    for arguments in [
+        "render -o a.png --cull bounds",
+        "render -o a.png --mark fragdepth",
+        "bench -o out --method nn-omni --cull bounds --mark copy",
+    ] {
         place.refused(arguments, 4, &["--cull bounds", &device.info.name, "no depth bounds test", "--cull ztest"]);
     }
 }
