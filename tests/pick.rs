@@ -21,7 +21,7 @@ fn device(index: usize, name: &str, kind: DeviceKind, unusable: Option<&str>) ->
         max_image_3d: 1,
         max_image_2d: 1,
         max_viewport: [1; 2],
-        sub_pixel_bits: 4,
+        sub_pixel_bits: 8,
         max_storage_buffer: 1,
         memory_bytes: 1,
         unusable: unusable.map(str::to_owned),

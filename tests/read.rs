@@ -1,7 +1,7 @@
 //! Volume readers: what is written comes back, and nothing else is accepted.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use depthleap::Result;
 use depthleap::read::{self, RawLayout};
@@ -352,32 +352,4 @@ fn a_layout_for_a_file_that_says_its_own_is_refused() {
     let (_folder, path) = file("a.nrrd", &nrrd(SMALL, &[0; 4]));
     let layout = RawLayout { dims: [2, 1, 2], voxel_type: VoxelType::U8, spacing: [1.0; 3], big_endian: false };
     assert!(read::volume(&path, Some(layout)).unwrap_err().to_string().contains("leave out dims"));
-}
-
-/// The shared data sets, where they are; a test without them counts as skipped, loudly.
-fn shared(name: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(name);
-    if !path.exists() {
-        eprintln!("SKIPPED: {} is not here", path.display());
-    }
-    path.exists().then_some(path)
-}
-
-#[test]
-fn fuel_reads_as_published() {
-    let Some(path) = shared("fuel.nrrd") else { return };
-    let volume = read::volume(&path, None).unwrap();
-    let Voxels::U8(voxels) = &volume.voxels else { panic!("fuel is u8") };
-    let mean = voxels.iter().map(|v| f64::from(*v)).sum::<f64>() / voxels.len() as f64;
-    assert_eq!((volume.dims, volume.spacing), ([64; 3], [1.0; 3]));
-    assert_eq!((voxels.iter().min(), voxels.iter().max()), (Some(&0), Some(&255)));
-    assert!((mean - 1.9448).abs() < 5e-5, "{mean}");
-}
-
-#[test]
-fn spacing_of_a_scan_reads_as_published() {
-    let Some(path) = shared("ct_vismale.nrrd") else { return };
-    let volume = read::volume(&path, None).unwrap();
-    assert_eq!(volume.dims, [128, 256, 256]);
-    assert!(volume.spacing.iter().zip([1.57774, 0.995861, 1.00797]).all(|(a, b)| (a - b).abs() < 1e-12));
 }

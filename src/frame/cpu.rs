@@ -14,8 +14,11 @@ use crate::scene::Scene;
 pub struct CpuFrame {
     /// Premultiplied RGBA, row 0 on top.
     pub pixels: Vec<[f64; 4]>,
-    /// Pixels that f32 cannot decide (see [`Pixel::undecided`]).
+    /// Pixels that f32 cannot decide (see [`Pixel::undecided`]), or the rasteriser.
     pub undecided: Vec<bool>,
+    /// How many of them lie so near to the outline of the box that a rasteriser, which moves corners to its raster,
+    /// may cover them or not.
+    pub outline: u64,
     pub counts: Counts,
     /// Rays that were not dead, each time they were counted.
     pub rays_left: Vec<u64>,
@@ -54,12 +57,11 @@ fn add(mine: &mut [u64], theirs: &[u64]) {
     mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += b);
 }
 
-/// The raster that most devices move corners to, in pixels; where no device is asked.
-pub const RASTER: f64 = 1.0 / 256.0;
+/// The raster of most rasterisers, as [`crate::vulkan::DeviceInfo::sub_pixel_bits`] has it.
+pub const SUB_PIXEL_BITS: u32 = 8;
 
-/// Runs the plan. What is undecided depends on the device's `raster`, in pixels: see [`RASTER`] and
-/// [`DeviceInfo::raster`](crate::vulkan::DeviceInfo::raster).
-pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, raster: f64) -> CpuFrame {
+/// Runs the plan as a device whose rasteriser has a raster of 2^-`sub_pixel_bits` pixels would.
+pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: u32) -> CpuFrame {
     let height = plan.view.size[1];
     let twin = Twin {
         scene,
@@ -68,11 +70,13 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, raster: f64) -> 
         distance: structures.distance.as_ref().map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
     };
-    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, raster, row)).collect();
+    let raster = 0.5f64.powi(sub_pixel_bits as i32);
+    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();
     let mut frame = CpuFrame::empty(plan);
     for row in rows {
         frame.pixels.extend(row.pixels);
         frame.undecided.extend(row.undecided);
+        frame.outline += row.outline;
         frame.counts.add(&row.counts);
         add(&mut frame.rays_left, &row.rays_left);
         frame.ideal += row.ideal;
@@ -87,6 +91,7 @@ impl CpuFrame {
         Self {
             pixels: Vec::new(),
             undecided: Vec::new(),
+            outline: 0,
             counts: Counts::new(plan.passes),
             rays_left: vec![0; counted],
             ideal: 0,
@@ -105,10 +110,10 @@ impl CpuFrame {
     }
 }
 
-fn run_row(twin: &Twin, plan: &Plan, raster: f64, row: u32) -> CpuFrame {
+fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> CpuFrame {
     let mut frame = CpuFrame::empty(plan);
     for column in 0..plan.view.size[0] {
-        let (covered, mut undecided) = coverage(twin, raster, column, row);
+        let (covered, on_outline) = coverage(twin, column, row, raster);
         let mut pixel = Pixel { column, row, undecided: false, ..Pixel::default() };
         if covered {
             let mut counted = 0;
@@ -127,9 +132,9 @@ fn run_row(twin: &Twin, plan: &Plan, raster: f64, row: u32) -> CpuFrame {
                 frame.ideal += u64::from(effect == Effect::Contributed);
             }
         }
-        undecided |= pixel.undecided;
         frame.pixels.push(pixel.accumulated);
-        frame.undecided.push(undecided);
+        frame.undecided.push(pixel.undecided || on_outline);
+        frame.outline += u64::from(on_outline);
     }
     frame
 }
@@ -139,17 +144,15 @@ fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
     draw.faces == Faces::Back || pixel.stored <= f64::from(draw.bound)
 }
 
-/// Whether the box covers the pixel's centre, and whether that is open: a rasteriser moves corners to a raster and
-/// decides by that.
-fn coverage(twin: &Twin, raster: f64, column: u32, row: u32) -> (bool, bool) {
-    // Moved corners shift an edge by less than this many pixels.
-    let edge = 2.0 * raster;
+/// Whether the box covers the pixel's centre, and whether that is open. A rasteriser moves corners by up to half of its
+/// `raster` (pixels) on each axis; twice that leaves room for its own arithmetic.
+fn coverage(twin: &Twin, column: u32, row: u32, raster: f64) -> (bool, bool) {
     let half = 0.5 * twin.scene.field.extent();
     let hit = |x: f64, y: f64| {
         let direction = twin.rays.direction(column, row) + x * twin.rays.right + y * twin.rays.down;
         box_interval(twin.rays.eye, direction, half, twin.rays.near).is_some()
     };
     let centre = hit(0.0, 0.0);
-    let around = [(edge, edge), (-edge, edge), (edge, -edge), (-edge, -edge)];
+    let around = [(raster, raster), (-raster, raster), (raster, -raster), (-raster, -raster)];
     (centre, around.into_iter().any(|(x, y)| hit(x, y) != centre))
 }

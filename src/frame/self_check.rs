@@ -74,7 +74,7 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
     let mut resident = Resident::new(device);
     let mut statistics = (!device.info.pipeline_statistics).then(|| "the device has none".to_owned());
     for scene in &scenes {
-        let rule = Rule::new(scene, device.info.raster())?;
+        let rule = Rule::new(scene, device.info.sub_pixel_bits)?;
         for form in forms() {
             let verdict = found.entry(form).or_insert(Verdict::Right);
             if *verdict != Verdict::Right {
@@ -136,11 +136,11 @@ struct Rule {
 }
 
 impl Rule {
-    fn new(scene: &Scene, raster: f64) -> Result<Self> {
+    fn new(scene: &Scene, sub_pixel_bits: u32) -> Result<Self> {
         let plan = plan::plan(scene, plan::papers_form(MethodName::NnOmni))?;
         let mut structures = Structures::default();
         structures.prepare(scene, &plan);
-        Ok(Self { frame: cpu::run(scene, &plan, &structures, raster), structures })
+        Ok(Self { frame: cpu::run(scene, &plan, &structures, sub_pixel_bits), structures })
     }
 
     /// What a run has different from the rule, but for rays that f32 cannot decide.

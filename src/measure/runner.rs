@@ -168,7 +168,7 @@ impl<'a> Runner<'a> {
     /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
         let terminates = scene.settings.method.name != MethodName::Rc;
-        let raster = self.checked.map_or(cpu::RASTER, |checked| checked.device.info.raster());
+        let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
         match self.references.entry(terminates) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
@@ -176,7 +176,7 @@ impl<'a> Runner<'a> {
                 scene.settings.sampling.passes = passes;
                 scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
                 let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
-                Ok(place.insert(cpu::run(&scene, &plan, &Structures::default(), raster)))
+                Ok(place.insert(cpu::run(&scene, &plan, &Structures::default(), bits)))
             }
         }
     }
@@ -304,7 +304,7 @@ pub fn law_of_skipping(measured: &mut [Measured]) {
 
 fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
     let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
-    let frame = cpu::run(&scene, &plan, &Structures::default(), cpu::RASTER);
+    let frame = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
     let run = FrameRun {
         frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
         cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,

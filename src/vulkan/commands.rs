@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use ash::vk;
 
@@ -14,7 +14,8 @@ use super::layout::Layout;
 use super::owned::{Kept, Owned};
 use super::pipeline::{ComputePipeline, GraphicsPipeline};
 use super::query::{Kind, QueryPool};
-use super::queue::{Queue, Submission};
+use super::queue::Queue;
+use super::recorded::Recorded;
 use super::render_pass::{Framebuffer, RenderPass};
 use crate::error::{Error, Result};
 
@@ -26,9 +27,9 @@ pub struct Commands {
     pub(super) family: u32,
     slot: u32,
     has_timestamps: bool,
-    pool: Arc<Owned<vk::CommandPool>>,
+    pub(super) pool: Arc<Owned<vk::CommandPool>>,
     /// What the commands use, by address.
-    kept: HashMap<usize, Kept>,
+    pub(super) kept: HashMap<usize, Kept>,
     fault: Option<Error>,
 }
 
@@ -84,14 +85,7 @@ impl Commands {
             self.device.raw.end_command_buffer(self.raw)
         };
         self.device.check("vkEndCommandBuffer", &self.name, ended)?;
-        Ok(Recorded {
-            name: self.name,
-            device: self.device,
-            raw: self.raw,
-            family: self.family,
-            last: Mutex::default(),
-            _kept: self.kept.into_values().chain([self.pool as Kept]).collect(),
-        })
+        Ok(Recorded::new(self))
     }
 
     /// `clears`: one for each attachment, up to the last one that is cleared.
@@ -368,50 +362,5 @@ impl Commands {
 
     pub(super) fn misused(&mut self, object: &str, problem: impl ToString) {
         self.fault.get_or_insert_with(|| misuse(object, problem));
-    }
-}
-
-/// A finished recording, with all it uses.
-pub struct Recorded {
-    name: String,
-    device: Arc<Device>,
-    raw: vk::CommandBuffer,
-    family: u32,
-    last: Mutex<Option<Submission>>,
-    _kept: Vec<Kept>,
-}
-
-impl Recorded {
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Waits until its last submission has ended.
-    pub fn wait(&self) -> Result<()> {
-        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        last.map_or(Ok(()), |submission| submission.wait())
-    }
-
-    pub(super) fn device(&self) -> &Arc<Device> {
-        &self.device
-    }
-
-    pub(super) fn raw(&self) -> vk::CommandBuffer {
-        self.raw
-    }
-
-    pub(super) fn family(&self) -> u32 {
-        self.family
-    }
-
-    pub(super) fn submitted(&self, submission: &Submission) {
-        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(submission.clone());
-    }
-}
-
-impl Drop for Recorded {
-    fn drop(&mut self) {
-        // What it uses may be freed when its last submission has ended; a lost device runs nothing any more.
-        let _ = self.wait();
     }
 }

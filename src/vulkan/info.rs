@@ -60,7 +60,7 @@ pub struct DeviceInfo {
     pub max_image_2d: u32,
     /// Pixels, width and height.
     pub max_viewport: [u32; 2],
-    /// Fraction bits of a corner's place in pixels.
+    /// The rasteriser moves corners to a raster of 2^-bits pixels; at least 4.
     pub sub_pixel_bits: u32,
     /// Bytes.
     pub max_storage_buffer: u64,
@@ -86,11 +86,6 @@ impl Instance {
 }
 
 impl DeviceInfo {
-    /// The raster that corners of triangles are moved to, in pixels.
-    pub fn raster(&self) -> f64 {
-        f64::from(self.sub_pixel_bits).exp2().recip()
-    }
-
     /// The family for graphics: one that computes too, if there is one.
     pub(super) fn graphics_family(&self) -> Option<usize> {
         let has = |wanted| self.queue_families.iter().position(|family| family.flags.contains(wanted));

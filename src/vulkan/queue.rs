@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
-use super::commands::Recorded;
 use super::device::Device;
 use super::failure::{failed, misuse};
+use super::recorded::Recorded;
 use crate::error::Result;
 
 /// A queue of a device. Submissions from several threads are taken one by one.

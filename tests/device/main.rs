@@ -1,6 +1,7 @@
 //! Tests that need a Vulkan device, in one program with a harness of its own: one folder or file for each module.
 
 mod cli;
+mod data;
 mod formulas;
 mod frame;
 mod harness;
@@ -10,5 +11,10 @@ mod vulkan;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    harness::run([formulas::tests(), vulkan::tests(), frame::tests(), cli::tests()].into_iter().flatten().collect())
+    harness::run(
+        [data::tests(), formulas::tests(), vulkan::tests(), frame::tests(), cli::tests()]
+            .into_iter()
+            .flatten()
+            .collect(),
+    )
 }

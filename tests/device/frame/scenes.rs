@@ -20,8 +20,8 @@ pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scen
         false => settings.volume.builtin = Some(volume.to_owned()),
     }
     settings.transfer.preset = Some(tf.to_owned());
-    // At this size no edge of a box runs along a column of pixel centres in any of the views: a rasteriser, which moves
-    // corners to a raster of 1/256 pixel, could not be told which of them to cover.
+    // At this size no edge of a box runs along a column of pixel centres in any of the views: all of the column would
+    // be the rasteriser's to decide.
     settings.image.size = [122, 98];
     settings.sampling.samples_per_pass = 4;
     change(&mut settings);
@@ -107,7 +107,7 @@ impl Stage {
     pub fn twin(&mut self, scene: &Scene, form: Option<Form>) -> CpuFrame {
         let plan = plan::plan(scene, form).expect("a plan");
         self.structures.prepare(scene, &plan);
-        cpu::run(scene, &plan, &self.structures, self.device.info.raster())
+        cpu::run(scene, &plan, &self.structures, self.device.info.sub_pixel_bits)
     }
 }
 

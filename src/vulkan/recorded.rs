@@ -1,0 +1,69 @@
+//! Finished recordings: what they use lives until their last submission has ended.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk;
+
+use super::commands::Commands;
+use super::device::Device;
+use super::owned::Kept;
+use super::queue::Submission;
+use crate::error::Result;
+
+/// A finished recording, with all it uses.
+pub struct Recorded {
+    name: String,
+    device: Arc<Device>,
+    raw: vk::CommandBuffer,
+    family: u32,
+    last: Mutex<Option<Submission>>,
+    _kept: Vec<Kept>,
+}
+
+impl Recorded {
+    /// Takes over the buffer of `commands`, whose recording has ended, with its pool.
+    pub(super) fn new(commands: Commands) -> Self {
+        let Commands { name, device, raw, family, pool, kept, .. } = commands;
+        Self {
+            name,
+            device,
+            raw,
+            family,
+            last: Mutex::default(),
+            _kept: kept.into_values().chain([pool as Kept]).collect(),
+        }
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Waits until its last submission has ended.
+    pub fn wait(&self) -> Result<()> {
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        last.map_or(Ok(()), |submission| submission.wait())
+    }
+
+    pub(super) fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
+    pub(super) fn raw(&self) -> vk::CommandBuffer {
+        self.raw
+    }
+
+    pub(super) fn family(&self) -> u32 {
+        self.family
+    }
+
+    pub(super) fn submitted(&self, submission: &Submission) {
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(submission.clone());
+    }
+}
+
+impl Drop for Recorded {
+    fn drop(&mut self) {
+        // What it uses may be freed when its last submission has ended; a lost device runs nothing any more.
+        let _ = self.wait();
+    }
+}
