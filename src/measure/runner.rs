@@ -334,9 +334,9 @@ fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
     match missing {
         None => Ok(()),
         Some((form, what)) => Err(Error::device(
-            format!("--cull {} on {}", form.cull_name(), checked.device.info.name),
+            format!("--cull {} --mark {} on {}", form.cull_name(), form.mark_name(), checked.device.info.name),
             what,
-            "use --cull ztest, or --cull auto, which takes what the device has",
+            "use --cull ztest --mark copy, or leave both to auto, which takes what the device has",
         )),
     }
 }

@@ -1,15 +1,13 @@
 //! Extreme but legal scenes: every method gives a finite picture, those on the device the same to the bit, and the
 //! device that of the f64 reference.
 
-use std::process::Stdio;
-
 use super::METHODS;
-use super::program::{Ended, Place, npy};
+use super::program::Place;
 use crate::harness::{Test, test};
 
 /// Largest difference of a channel from f64: some hundred samples rounded to f32. Pixels that f32 cannot decide (a
 /// sample at the very end of a ray, an edge of the box) may differ by more, and the run says how many they are.
-const ROUNDING: f32 = 1e-5;
+const ROUNDING: f64 = 1e-5;
 
 const VIEW: &str = "--azimuth 31 --elevation 17";
 const SHELLS: &str = "builtin:shells:24";
@@ -60,36 +58,37 @@ fn agree(arguments: &str) {
     place.file("clear.json", r#"{"points": [[0, 1, 1, 1, 0], [1, 1, 1, 1, 0]]}"#);
     place.file("opaque.json", r#"{"points": [[0, 1, 0.5, 0.2, 1], [1, 0.2, 1, 1, 1]]}"#);
     raw_file(&place, arguments);
-    let mut options = "--filter exact --texture r32f".to_owned();
+    let mut options = "--filter exact --texture r32f --repeats 1 --warmups 0".to_owned();
     for (option, usual) in [("--viewport", "24x18"), ("--termination", "1")] {
         if !arguments.contains(option) {
             options += &format!(" {option} {usual}");
         }
     }
-    let start = |method: &str| {
-        let compared = if method == "nn-omni" { " --reference-error --json error.json" } else { "" };
-        let files = format!("-o {method}.npy{compared}");
-        let mut command = place.command(&format!("render {arguments} {options} --method {method} {files}"));
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-    };
-    for (method, child) in METHODS.map(|method| (method, start(method))) {
-        let ended = Ended::of(child.wait_with_output().unwrap());
-        assert_eq!(ended.code, Some(0), "{method}: {}", ended.err);
+    // One start of the program for all methods: a start costs some drivers seconds.
+    place.done(&format!("bench {arguments} {options} --method {} -o out", METHODS.join(",")));
+    let results = place.json("out/results.json");
+    let runs = results["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), METHODS.len());
+    let (last, on_device) = runs.split_last().unwrap();
+    assert_eq!(last["method"], "cpu");
+    for run in on_device {
+        let (method, error) = (&run["method"], &run["error"]);
+        if run["passes"] == 0 {
+            assert!(error.is_null() && run["fragments"]["main"] == 0, "{method}: {error}");
+            continue;
+        }
+        // A pixel that is not finite is infinitely far, which JSON has as null.
+        assert!(error["rmse"].is_number(), "{method} is not finite: {error}");
+        assert!(error["max"].as_f64().unwrap() <= ROUNDING, "{method}: {error}");
+        // `rc` ends no ray early; where the others end none either, its picture is theirs.
+        if method != "rc" || !arguments.contains("--termination") {
+            assert_eq!(error, &on_device[3]["error"], "{method} and nn-omni differ");
+        }
+        if method == "rc-block" || method == "nn-omni" {
+            let notes = run["notes"].as_array().unwrap();
+            assert!(notes.iter().any(|n| n.as_str().unwrap().contains("bit for bit")), "{method}: {notes:?}");
+        }
     }
-    let picture = |method: &str| npy(&place.read(&format!("{method}.npy"))).1;
-    let (rule, on_device) = (picture("cpu"), picture("nn-omni"));
-    assert!(rule.iter().chain(&on_device).all(|f| f.is_finite()));
-    // `rc` ends no ray early, so it is of the others' number only where they end none either.
-    let others: &[&str] = if arguments.contains("--termination") { &["rc-ert", "rc-block"] } else { &METHODS[..3] };
-    for method in others {
-        assert_eq!(picture(method), on_device, "{method} and nn-omni differ");
-    }
-    let error = &place.json("error.json")["error"];
-    let undecided = if error.is_null() { 0 } else { error["undecided"].as_u64().unwrap() };
-    let off = |(a, b): (&[f32], &[f32])| a.iter().zip(b).any(|(a, b)| (a - b).abs() > ROUNDING);
-    let differing = rule.chunks(4).zip(on_device.chunks(4)).filter(|pixels| off(*pixels)).count() as u64;
-    assert!(differing <= undecided, "{differing} pixels differ, {undecided} are undecided: {error}");
-    assert!(error.is_null() || error["max"].as_f64().unwrap() <= f64::from(ROUNDING), "{error}");
 }
 
 /// The raw file that `arguments` name, if they do. Its values rise and fall slowly: a coordinate in f32 is only good to
