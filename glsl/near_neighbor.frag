@@ -5,7 +5,8 @@
 // Departures: 1. distances are bounds for the trilinear footprint, not from voxel to voxel. 2. EXIT_LOOKAHEAD:
 // a ray that will have left the volume by then is dead at once. 3. FRAGDEPTH_ANY marks a section in which the
 // ray arrives a little later in the section than one that lies ahead: depths only rise, so that compare GREATER
-// lets every mark pass and counts it.
+// lets every mark pass and counts it. 4. all samples within the distance are free, so the first that may show
+// something is a step beyond the last of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@variant fragdepth MARK_FRAGDEPTH
@@ -34,7 +35,8 @@ float decide(Ray ray) {
         return DEAD;
     }
     float free = float(texelFetch(nearest_distance, cell_of(sample_place(ray, first)), 0).r);
-    uint next = pass + passes_skipped(free);
+    float step_voxels = frame.segment_voxels / float(SAMPLES_PER_PASS);
+    uint next = pass + passes_skipped(free + step_voxels);
     bool gone = next >= frame.passes || (EXIT_LOOKAHEAD && next * SAMPLES_PER_PASS >= ray.samples);
     return gone ? DEAD : section_depth(next, next == pass);
 }

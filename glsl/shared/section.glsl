@@ -16,11 +16,11 @@ float section_depth(uint section, bool arrived) {
 }
 
 // What f32 may take from a quotient of a whole number and a segment, relative, the segment's own rounding included.
-const float QUOTIENT_ROUNDING = exp2(-22.0);
+const float QUOTIENT_ROUNDING = exp2(-20.0);
 
-// Whole segments within `free` voxels that hold no contributing sample. The last sample of m segments of M samples
-// lies at (m M - 1) steps, a whole step before their end; at 255 voxels, the largest distance, rounding up reaches
-// 6e-5 voxels, and no step is as short.
-uint passes_skipped(float free) {
-    return uint(floor(free / frame.segment_voxels * (1.0 + QUOTIENT_ROUNDING)));
+// Whole segments of M samples within `way` voxels, which begin at a first sample and end where the first sample lies
+// that may show something. At 255 voxels, the largest distance, rounding up reaches 3e-4 voxels; distances leave room
+// for more than that (SLACK in src/structure/distance.rs).
+uint passes_skipped(float way) {
+    return uint(floor(way / frame.segment_voxels * (1.0 + QUOTIENT_ROUNDING)));
 }

@@ -11,9 +11,10 @@ pub fn section_end(section: u32, passes: u32) -> f64 {
 }
 
 /// As in the shader, whose quotients it makes up for.
-const QUOTIENT_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+const QUOTIENT_ROUNDING: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whole segments of `segment` voxels within `free` voxels that hold no contributing sample.
-pub fn passes_skipped(free: f64, segment: f64) -> u32 {
-    (free / segment * (1.0 + QUOTIENT_ROUNDING)).floor() as u32
+/// Whole segments of `segment` voxels within `way` voxels, which begin at a first sample and end where the first sample
+/// lies that may show something.
+pub fn passes_skipped(way: f64, segment: f64) -> u32 {
+    (way / segment * (1.0 + QUOTIENT_ROUNDING)).floor() as u32
 }

@@ -1,6 +1,6 @@
 //! Distance from each cell to the nearest interesting one [Thesis §5.3]: what near-neighbor skipping jumps by.
 //!
-//! The distance is that between the *boxes* of two cells, floored to whole voxels of the finest spacing: a lower
+//! The distance is that between the *boxes* of two cells, less [`SLACK`] and floored to whole voxels of the finest spacing: a lower
 //! bound for the distance of any point of the one to any point of the other. Border cells reach out to the faces of
 //! the volume and so are larger than their boxes here, but only away from all cells beside them: their outer part is
 //! farther from any other cell than their box is, and the bound holds there too.
@@ -12,8 +12,8 @@
 //! The transform is separable: sums of squares are minimised axis by axis, first by two scans along x, then along y
 //! and z as the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled
 //! Functions, 2012, §2). Departures: (1) the dilation is done along each axis just before its transform; (2) distances
-//! of 255 and more are one and the same, so parabolas that high are left out; (3) what is kept between the axes is
-//! f32, exact for isotropic spacing (integers below 2^16) and else rounded down, which keeps the bound.
+//! of 256 and more are one and the same, so parabolas that high are left out; (3) what is kept between the axes is
+//! f32, exact for isotropic spacing (integers up to 2^16) and else rounded down, which keeps the bound.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,8 +23,15 @@ use crate::scene::Field;
 /// A distance of at least so many voxels, or nothing interesting at all.
 pub const FAR: u8 = u8::MAX;
 
-/// Square of [`FAR`]: no sum of squares from here on needs to be known.
-const FAR_SQUARED: f64 = FAR as f64 * FAR as f64;
+/// What a distance is less than the true one before it is floored, in voxels: room for the rounding of whoever jumps
+/// by it, so that a sample exactly at the distance is not on the wrong side of a face.
+pub const SLACK: f64 = 1.0 / 512.0;
+
+/// From here on a distance is [`FAR`] with slack to spare.
+const REACH: u32 = FAR as u32 + 1;
+
+/// Its square: no sum of squares from here on needs to be known.
+const FAR_SQUARED: f64 = (REACH * REACH) as f64;
 
 /// Columns that are transformed together: a cache line of f32, so that each line is fetched once.
 const TILE: usize = 16;
@@ -93,8 +100,8 @@ pub fn omni(cells: [usize; 3], sides: DVec3, interesting: &[bool]) -> DistanceFi
             envelope.load(width, |z| &squares[(z * ny + y) * nx + x..][..width]);
             envelope.transform();
             for (z, row) in turned.chunks_exact_mut(nx).enumerate() {
-                // The cast saturates: FAR and all above it become FAR.
-                envelope.store(z, &mut row[x..][..width], |square| square.sqrt() as u8);
+                // The cast saturates: below 0 becomes 0, FAR and all above it FAR.
+                envelope.store(z, &mut row[x..][..width], |square| (square.sqrt() - SLACK) as u8);
             }
         }
     });
@@ -112,14 +119,14 @@ fn round_down(x: f64) -> f32 {
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
-/// Squared box distance to the nearest flag of a row, infinite where it is FAR or more.
+/// Squared box distance to the nearest flag of a row, infinite where it is [`REACH`] or more.
 fn scan(side: f64, flags: &[bool], squares: &mut [f32]) {
     // Between boxes, so one cell less than between indices; the row starts as if beyond reach.
     let square = |cells: u32| {
         let distance = f64::from(cells.saturating_sub(1)) * side;
-        if distance < f64::from(FAR) { round_down(distance * distance) } else { f32::INFINITY }
+        if distance < f64::from(REACH) { round_down(distance * distance) } else { f32::INFINITY }
     };
-    let out_of_reach = u32::from(FAR) + 1;
+    let out_of_reach = REACH + 1;
     let mut since = out_of_reach;
     for (flag, out) in flags.iter().zip(&mut *squares) {
         since = if *flag { 0 } else { out_of_reach.min(since + 1) };
