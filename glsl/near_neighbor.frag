@@ -36,7 +36,8 @@ float decide(Ray ray) {
     }
     float free = float(texelFetch(nearest_distance, cell_of(sample_place(ray, first)), 0).r);
     float step_voxels = frame.segment_voxels / float(SAMPLES_PER_PASS);
-    uint next = pass + passes_skipped(free + step_voxels);
+    // At distance 0 the first sample itself may show something.
+    uint next = pass + passes_skipped(free > 0.0 ? free + step_voxels : 0.0);
     bool gone = next >= frame.passes || (EXIT_LOOKAHEAD && next * SAMPLES_PER_PASS >= ray.samples);
     return gone ? DEAD : section_depth(next, next == pass);
 }

@@ -17,7 +17,8 @@ pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     }
     let free = f64::from(twin.at_cell(pixel, first, |cell| distance.at(cell)));
     let segment = f64::from(sampling.samples_per_pass) * sampling.step;
-    let next = pass + passes_skipped(free + sampling.step, segment);
+    let way = if free > 0.0 { free + sampling.step } else { 0.0 };
+    let next = pass + passes_skipped(way, segment);
     let left = method.exit_lookahead && next * sampling.samples_per_pass >= twin.sample_count(pixel);
     pixel.stored = if left || next >= twin.passes { DEAD } else { section_depth(next, twin.passes) };
     Effect::Silent

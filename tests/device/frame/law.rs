@@ -32,7 +32,8 @@ const BUILT_IN: [(&str, &str, Change); 8] = [
     ("shells:48", "ramp", |_| {}),
     // A jump of opacity, walls on block seams.
     ("blocks:64", "surface", |_| {}),
-    ("jets:40x48x56", "ramp", |s| s.sampling.samples_per_pass = 3),
+    // A pass of one sample: nothing is skipped at distance 0.
+    ("jets:40x48x56", "ramp", |s| s.sampling.samples_per_pass = 1),
     // Nothing to skip.
     ("marschner-lobb:24", "haze", |_| {}),
     // Steps below and above a voxel, samples in the middle, a short last one.
