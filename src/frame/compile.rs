@@ -27,7 +27,6 @@ pub struct Compiled {
     pub targets: HashMap<Resource, Image>,
     pub marks_buffer: Option<Buffer>,
     pub region: Region,
-    pub clear_layouts: HashMap<Resource, vk::ImageLayout>,
 }
 
 pub struct CompiledStep {
@@ -99,15 +98,11 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         sets: HashMap::new(),
     };
     let mut compiled = Vec::with_capacity(steps.len());
-    let mut clear_layouts = HashMap::new();
     for (step, scheduled) in steps.into_iter().zip(scheduled) {
         let draw = match (&step.work, scheduled.render_pass) {
             (Work::Draw(draw), Some(info)) => Some(compiler.draw(&step, draw, info, &scheduled.targets)?),
             _ => None,
         };
-        if let Work::Clear(resource) = step.work {
-            clear_layouts.insert(resource, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
-        }
         compiled.push(CompiledStep {
             accumulated_layout: scheduled.layouts.get(&Resource::Accumulated).copied(),
             step,
@@ -136,7 +131,6 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         targets: compiler.targets,
         marks_buffer,
         region: plan.view.region,
-        clear_layouts,
     })
 }
 
