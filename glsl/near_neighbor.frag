@@ -22,10 +22,25 @@
 #include "shared/section.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
-// Lower bound of the distance to the nearest interesting cell, in voxels of the finest spacing.
+// Lower bound of the distance to the nearest interesting cell, in voxels of the finest spacing: a byte, or eight bytes
+// in two words, one for each octant.
 layout(set = 0, binding = 10) uniform usampler3D nearest_distance;
 
 layout(constant_id = 6) const bool EXIT_LOOKAHEAD = true;
+// Side of a cell of the structure, in voxels.
+layout(constant_id = 7) const int CELL = 1;
+// The structure tells octants apart.
+layout(constant_id = 8) const bool OCTANTS = false;
+
+// Voxels that are free from sample `i` on, along the ray.
+float free_distance(Ray ray, uint i) {
+    uvec2 texel = texelFetch(nearest_distance, cell_of(sample_place(ray, i)) / CELL, 0).rg;
+    if (!OCTANTS) {
+        return float(texel.x);
+    }
+    uvec3 down = uvec3(lessThan(ray.step_vector, vec3(0.0)));
+    return float(bitfieldExtract(down.z == 0u ? texel.x : texel.y, int(8u * (down.x + 2u * down.y)), 8));
+}
 
 float decide(Ray ray) {
     uint pass = this_step.pass;
@@ -34,7 +49,7 @@ float decide(Ray ray) {
     if (first >= ray.samples || saturated) {
         return DEAD;
     }
-    float free = float(texelFetch(nearest_distance, cell_of(sample_place(ray, first)), 0).r);
+    float free = free_distance(ray, first);
     float step_voxels = frame.segment_voxels / float(SAMPLES_PER_PASS);
     // At distance 0 the first sample itself may show something.
     uint next = pass + passes_skipped(free > 0.0 ? free + step_voxels : 0.0);

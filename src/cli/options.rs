@@ -113,12 +113,18 @@ pub struct MethodOptions {
     /// How the intermediate pass stores its decision [default: auto]
     #[arg(long, value_name = "WAY")]
     pub mark: Option<Mark>,
-    /// nn-omni: notice that a ray has left the volume only on arrival, as the papers do
+    /// nn-*: notice that a ray has left the volume only on arrival, as the papers do
     #[arg(long)]
     no_exit_lookahead: bool,
     /// rc-block: test for empty blocks before the first main pass too
     #[arg(long)]
     pub block_first: bool,
+    /// nn-*: side of a cell of the distance structure in voxels: 1, 2, 4 or 8 [default: 1]
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
+    cell: Option<u32>,
+    /// nn-cone: half-angle around the view direction [default: 10]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    cone: Option<f64>,
 }
 
 impl SceneOptions {
@@ -209,6 +215,8 @@ impl MethodOptions {
         method.mark = self.mark.unwrap_or(method.mark);
         method.exit_lookahead &= !self.no_exit_lookahead;
         method.block_first |= self.block_first;
+        method.cell = self.cell.unwrap_or(method.cell);
+        method.cone = self.cone.unwrap_or(method.cone);
     }
 }
 

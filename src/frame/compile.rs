@@ -261,7 +261,7 @@ impl Compiler<'_> {
                 bound.push((resource.name(), Bound::Uniform(&self.frame)));
             } else if let Some(buffer) = self.resident.buffer(resource) {
                 bound.push((resource.name(), Bound::Storage(buffer)));
-            } else if let Some(image) = self.targets.get(&resource).or_else(|| self.resident.image(resource)) {
+            } else if let Some(image) = self.image(resource) {
                 let sampler = match &self.linear {
                     Some(linear) if resource == Resource::Volume => linear,
                     _ => &self.nearest,
@@ -273,5 +273,12 @@ impl Compiler<'_> {
         let made = Arc::new(DescriptorSet::new(self.device, name, &pipeline.layout, &bound)?);
         self.sets.insert(key.clone(), made.clone());
         Ok(made)
+    }
+
+    fn image(&self, resource: Resource) -> Option<&Image> {
+        match (resource, &self.plan.distance) {
+            (Resource::NearestDistance, Some(lookup)) => self.resident.distance(lookup),
+            _ => self.targets.get(&resource).or_else(|| self.resident.image(resource)),
+        }
     }
 }

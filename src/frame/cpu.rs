@@ -67,7 +67,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         scene,
         rays: plan.view.rays,
         passes: plan.passes,
-        distance: structures.distance.as_ref().map(|d| &d.value),
+        distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);

@@ -15,7 +15,9 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::scene::settings::Filter;
 use crate::shared;
+use crate::structure::Lookup;
 use crate::structure::blocks::{self, Blocks};
+use crate::structure::grid::DistanceField;
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 
 /// Images and buffers of one scene, made when the first plan asks for them.
@@ -23,6 +25,7 @@ pub struct Resident {
     device: Arc<Device>,
     images: HashMap<Resource, Image>,
     buffers: HashMap<Resource, Buffer>,
+    distances: Vec<(Lookup, Image)>,
     texels: Option<Texels>,
     pub(super) pipelines: Pipelines,
     /// Time to build structures on the device, milliseconds of CPU time.
@@ -35,6 +38,7 @@ impl Resident {
             device: device.clone(),
             images: HashMap::new(),
             buffers: HashMap::new(),
+            distances: Vec::new(),
             texels: None,
             pipelines: Pipelines::new(device),
             build_ms: HashMap::new(),
@@ -49,10 +53,19 @@ impl Resident {
         self.buffers.get(&resource)
     }
 
-    /// Bytes of each resource on the device.
-    pub fn bytes(&self) -> Vec<(Resource, u64)> {
+    /// The distances of that kind.
+    pub fn distance(&self, lookup: &Lookup) -> Option<&Image> {
+        self.distances.iter().find(|(made, _)| made == lookup).map(|(_, image)| image)
+    }
+
+    /// Bytes of each resource that the plan reads.
+    pub fn bytes(&self, plan: &Plan) -> Vec<(Resource, u64)> {
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         let images = self.images.iter().map(|(r, i)| (*r, i.bytes()));
-        images.chain(self.buffers.iter().map(|(r, b)| (*r, b.bytes()))).collect()
+        let buffers = self.buffers.iter().map(|(r, b)| (*r, b.bytes()));
+        let distance = plan.distance.and_then(|lookup| self.distance(&lookup));
+        let distance = distance.map(|image| (Resource::NearestDistance, image.bytes()));
+        images.chain(buffers).filter(|(r, _)| reads(*r)).chain(distance).collect()
     }
 
     /// Makes what the plan reads and is not there yet.
@@ -61,23 +74,25 @@ impl Resident {
     /// When the volume is larger than the device allows, or cannot be filtered there.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan, structures: &Structures) -> Result<()> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        for resource in [
-            Resource::Volume,
-            Resource::Holes,
-            Resource::Transfer,
-            Resource::NearestDistance,
-            Resource::BlockTable,
-            Resource::BlockRange,
-        ] {
+        for resource in
+            [Resource::Volume, Resource::Holes, Resource::Transfer, Resource::BlockTable, Resource::BlockRange]
+        {
             let there = self.images.contains_key(&resource) || self.buffers.contains_key(&resource);
             if reads(resource) && !there {
-                self.make(resource, scene, structures)?;
+                self.make(resource, scene)?;
             }
+        }
+        if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none())
+            && let Some(built) = structures.distance(&lookup)
+        {
+            let (value, format) = (&built.value, distance_format(&built.value));
+            let image = self.upload_image(Resource::NearestDistance, value.grid.cells, format, &value.distances)?;
+            self.distances.push((lookup, image));
         }
         Ok(())
     }
 
-    fn make(&mut self, resource: Resource, scene: &Scene, structures: &Structures) -> Result<()> {
+    fn make(&mut self, resource: Resource, scene: &Scene) -> Result<()> {
         let field = &scene.field;
         match resource {
             Resource::Volume => {
@@ -105,13 +120,6 @@ impl Resident {
                 )?;
                 buffer.write(0, bytemuck::cast_slice(&pieces))?;
                 self.buffers.insert(resource, buffer);
-            }
-            Resource::NearestDistance => {
-                if let Some(distance) = &structures.distance {
-                    let value = &distance.value;
-                    let image = self.upload_image(resource, value.cells, vk::Format::R8_UINT, &value.distances)?;
-                    self.images.insert(resource, image);
-                }
             }
             Resource::BlockTable => {
                 let table = blocks::visibility_table(&self.texels(scene).transfer(&scene.transfer));
@@ -162,6 +170,11 @@ impl Resident {
         upload::image(&self.device, &image, bytes)?;
         Ok(image)
     }
+}
+
+/// A byte a cell, or all octants of a cell in one texel.
+fn distance_format(distance: &DistanceField) -> vk::Format {
+    if distance.octants == 1 { vk::Format::R8_UINT } else { vk::Format::R32G32_UINT }
 }
 
 fn check_format(device: &Device, format: vk::Format, filter: Filter) -> Result<()> {

@@ -39,7 +39,7 @@ impl SelfCheck {
     /// The form `auto` stands for [DESIGN 2.3]: what the papers did where the device does it right.
     pub fn automatic(&self, method: MethodName) -> Option<Form> {
         let papers = plan::papers_form(method)?;
-        if method != MethodName::NnOmni {
+        if method.distance().is_none() {
             return Some(papers);
         }
         let order = [papers, Form { cull: Cull::Bounds, mark: Mark::Copy }];

@@ -5,8 +5,8 @@ use cpu_time::ProcessTime;
 use crate::pass::resource::Resource;
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::structure::distance::DistanceField;
-use crate::structure::{self, blocks::Blocks};
+use crate::structure::grid::DistanceField;
+use crate::structure::{self, Lookup, blocks::Blocks};
 
 /// A structure and what it cost.
 #[derive(Clone, Debug)]
@@ -20,22 +20,27 @@ pub struct Built<T> {
 /// What a frame looks up to skip.
 #[derive(Clone, Debug, Default)]
 pub struct Structures {
-    pub distance: Option<Built<DistanceField>>,
+    pub distances: Vec<(Lookup, Built<DistanceField>)>,
     pub blocks: Option<Built<Blocks>>,
 }
 
 impl Structures {
-    /// Adds what the plan reads and is not there yet. All of it depends on volume and transfer function only,
-    /// so that plans of one scene may share it.
+    /// Adds what the plan reads and is not there yet. All of it depends on volume and transfer function, some on the
+    /// view besides, so that plans of one scene may share it.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
-        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        if self.distance.is_none() && reads(Resource::NearestDistance) {
-            self.distance =
-                Some(timed(|| structure::omni(&scene.field, &scene.transfer), |d| d.distances.len() as u64));
+        if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
+            let build = || structure::build(&scene.field, &scene.transfer, &lookup);
+            self.distances.push((lookup, timed(build, |d| d.distances.len() as u64)));
         }
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         if self.blocks.is_none() && reads(Resource::BlockRange) {
             self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
         }
+    }
+
+    /// The distances of that kind, where they were built.
+    pub fn distance(&self, lookup: &Lookup) -> Option<&Built<DistanceField>> {
+        self.distances.iter().find(|(made, _)| made == lookup).map(|(_, built)| built)
     }
 }
 

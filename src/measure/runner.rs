@@ -258,7 +258,7 @@ impl<'a> Runner<'a> {
     fn build_ms(&self, plan: &Plan) -> Option<Timing> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         let mut ms = 0.0;
-        if let Some(distance) = self.structures.distance.as_ref().filter(|_| reads(Resource::NearestDistance)) {
+        if let Some(distance) = plan.distance.and_then(|lookup| self.structures.distance(&lookup)) {
             ms += distance.cpu_ms;
         }
         let on_device = self.resident.iter().flat_map(|r| &r.build_ms);
@@ -268,15 +268,13 @@ impl<'a> Runner<'a> {
 
     fn structure_bytes(&self, plan: &Plan) -> u64 {
         let structures = [Resource::NearestDistance, Resource::BlockRange, Resource::BlockTable];
-        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        let there = self.resident.iter().flat_map(Resident::bytes);
-        there.filter(|(r, _)| structures.contains(r) && reads(*r)).map(|(_, b)| b).sum()
+        let there = self.resident.iter().flat_map(|resident| resident.bytes(plan));
+        there.filter(|(r, _)| structures.contains(r)).map(|(_, b)| b).sum()
     }
 
     fn memory(&self, entry: &Entry) -> BTreeMap<String, u64> {
-        let reads = |r: Resource| entry.plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        let there = self.resident.iter().flat_map(Resident::bytes);
-        let shared = there.filter(|(r, _)| entry.frame.is_some() && reads(*r));
+        let there = self.resident.iter().flat_map(|resident| resident.bytes(&entry.plan));
+        let shared = there.filter(|_| entry.frame.is_some());
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
     }

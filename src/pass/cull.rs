@@ -48,7 +48,7 @@ impl Form {
         match method {
             MethodName::Rc | MethodName::Cpu => Vec::new(),
             MethodName::RcErt | MethodName::RcBlock => every.collect(),
-            MethodName::NnOmni => every.filter(|f| f.cull == Cull::Bounds || f.mark == Mark::Copy).collect(),
+            _ => every.filter(|f| f.cull == Cull::Bounds || f.mark == Mark::Copy).collect(),
         }
     }
 

@@ -7,7 +7,7 @@ use super::{Draw, Faces, Group, Step, Work, cull};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, Mark};
+use crate::scene::settings::{Cull, Distance, Mark};
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(scene: &Scene, pass: u32, passes: u32, form: cull::Form) -> Step {
@@ -30,6 +30,8 @@ pub fn near_neighbor(scene: &Scene, pass: u32, passes: u32, form: cull::Form) ->
     draw.constants = vec![
         ("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass),
         ("EXIT_LOOKAHEAD", u32::from(scene.settings.method.exit_lookahead)),
+        ("CELL", scene.settings.method.cell),
+        ("OCTANTS", u32::from(scene.settings.method.name.distance() == Some(Distance::Directional))),
     ];
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);

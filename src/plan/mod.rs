@@ -13,6 +13,7 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Cull, Filter, Last, Mark, MethodName};
+use crate::structure::Lookup;
 
 /// The frame of one scene, ready to be run.
 #[derive(Clone, Debug)]
@@ -22,6 +23,8 @@ pub struct Plan {
     pub passes: u32,
     /// Cull and mark, where the method culls at all.
     pub form: Option<Form>,
+    /// The distances that the steps look up, where they do.
+    pub distance: Option<Lookup>,
     pub steps: Vec<Step>,
     pub left_out: Vec<LeftOut>,
 }
@@ -47,7 +50,7 @@ pub fn papers_form(method: MethodName) -> Option<Form> {
         MethodName::RcErt | MethodName::RcBlock | MethodName::Cpu => {
             Some(Form { cull: Cull::Ztest, mark: Mark::Fragdepth })
         }
-        MethodName::NnOmni => Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth }),
+        _ => Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth }),
     }
 }
 
@@ -63,7 +66,7 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
     if method.name == MethodName::Cpu {
         return Ok(Some(automatic));
     }
-    let near_neighbor = method.name == MethodName::NnOmni;
+    let near_neighbor = method.name.distance().is_some();
     let cull = match method.cull {
         Cull::Auto if method.mark != Mark::Auto && method.mark != Mark::Copy && near_neighbor => Cull::Bounds,
         Cull::Auto => automatic.cull,
@@ -124,7 +127,8 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
             );
         }
     }
-    Ok(Plan { view, passes, form, steps, left_out })
+    let distance = Lookup::of(scene).filter(|_| passes > 0);
+    Ok(Plan { view, passes, form, distance, steps, left_out })
 }
 
 /// Samples on the diagonal of the volume, the longest ray of any view.

@@ -31,7 +31,7 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
             let first = u32::from(!method.block_first);
             switched(&mut steps, scene, passes, form, first, block_skip::block_skip);
         }
-        (MethodName::NnOmni, Some(form)) => {
+        (name, Some(form)) if name.distance().is_some() => {
             steps.push(clear::clear());
             let decide = |scene: &Scene, pass, form| near_neighbor::near_neighbor(scene, pass, passes, form);
             for pass in 0..passes {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::RawLayout;
 use crate::error::{Error, Result};
-use crate::scene::settings::{Settings, VolumeSettings};
+use crate::scene::settings::{CELLS, CONES, Settings, VolumeSettings};
 use crate::scene::transfer::REFERENCES;
 use crate::scene::{Camera, Field, Scene, Volume, builtin};
 
@@ -154,6 +154,19 @@ fn check_ranges(settings: &Settings) -> Result<()> {
         "transfer.reference (--reference)",
         reference.to_string(),
         format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end()),
+    )?;
+    let method = &settings.method;
+    check(
+        CELLS.contains(&method.cell),
+        "method.cell (--cell)",
+        method.cell.to_string(),
+        "give 1, 2, 4 or 8 voxels".into(),
+    )?;
+    check(
+        CONES.contains(&method.cone),
+        "method.cone (--cone)",
+        method.cone.to_string(),
+        format!("give a half-angle from {} to {} degrees", CONES.start(), CONES.end()),
     )?;
     let range = settings.volume.range.unwrap_or_default();
     check(

@@ -15,7 +15,7 @@ use glam::DVec3;
 use crate::math::ray::ViewRays;
 use crate::scene::Scene;
 use crate::structure::blocks::Blocks;
-use crate::structure::distance::DistanceField;
+use crate::structure::grid::DistanceField;
 
 /// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
 pub const DEAD: f64 = 1.0;

@@ -2,6 +2,7 @@
 
 use super::section::{passes_skipped, section_depth};
 use super::{DEAD, Effect, Pixel, Twin};
+use crate::structure::grid::octant_of;
 
 /// Marks the section in which the ray next has work, or death.
 ///
@@ -15,7 +16,8 @@ pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
         pixel.stored = DEAD;
         return Effect::Silent;
     }
-    let free = f64::from(twin.at_cell(pixel, first, |cell| distance.at(cell)));
+    let octant = octant_of(pixel.direction);
+    let free = f64::from(twin.at_cell(pixel, first, |cell| distance.at(cell, octant)));
     let segment = f64::from(sampling.samples_per_pass) * sampling.step;
     let way = if free > 0.0 { free + sampling.step } else { 0.0 };
     let next = pass + passes_skipped(way, segment);

@@ -228,11 +228,29 @@ pub struct MethodSettings {
     pub exit_lookahead: bool,
     /// Block skipping also tests before the first main pass.
     pub block_first: bool,
+    /// Side of a cell of the distance structure, in voxels: one of [`CELLS`].
+    pub cell: u32,
+    /// `nn-cone`: the half-angle around a voxel's view direction, in degrees: one of [`CONES`].
+    pub cone: f64,
 }
+
+/// Sides a cell of a distance structure may have.
+pub const CELLS: [u32; 4] = [1, 2, 4, 8];
+
+/// Half-angles a cone may have, degrees.
+pub const CONES: std::ops::RangeInclusive<f64> = 0.01..=60.0;
 
 impl Default for MethodSettings {
     fn default() -> Self {
-        Self { name: MethodName::NnOmni, cull: Cull::Auto, mark: Mark::Auto, exit_lookahead: true, block_first: false }
+        Self {
+            name: MethodName::NnOmni,
+            cull: Cull::Auto,
+            mark: Mark::Auto,
+            exit_lookahead: true,
+            block_first: false,
+            cell: 1,
+            cone: 10.0,
+        }
     }
 }
 
@@ -248,12 +266,68 @@ pub enum MethodName {
     RcBlock,
     /// Near-neighbor skipping, distance in any direction [Thesis §5.3].
     NnOmni,
+    /// Distance within the octant of the fragment's ray [Thesis §5.3.1].
+    NnDirectional,
+    /// Distance along the rays of this view [Thesis §5.3.1].
+    NnOptimal,
+    /// Distance within a cone around this view's rays, good for cameras nearby [Thesis §5.7].
+    NnCone,
+    /// `nn-omni`, intermediate passes after the first merged into the main passes [Thesis §5.7].
+    #[serde(rename = "nn-omni+fused")]
+    #[value(name = "nn-omni+fused")]
+    NnOmniFused,
+    #[serde(rename = "nn-directional+fused")]
+    #[value(name = "nn-directional+fused")]
+    NnDirectionalFused,
+    #[serde(rename = "nn-optimal+fused")]
+    #[value(name = "nn-optimal+fused")]
+    NnOptimalFused,
+    #[serde(rename = "nn-cone+fused")]
+    #[value(name = "nn-cone+fused")]
+    NnConeFused,
     /// The f64 reference: the same sum, on the CPU.
     Cpu,
 }
 
+/// What near-neighbor skipping measures its distances along [Thesis §5.3.1, §5.7].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Distance {
+    /// Any direction.
+    Omni,
+    /// The directions of an octant.
+    Directional,
+    /// The rays of one view.
+    Optimal,
+    /// Directions near the rays of one view.
+    Cone,
+}
+
+impl Distance {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Omni => "omni",
+            Self::Directional => "directional",
+            Self::Optimal => "optimal",
+            Self::Cone => "cone",
+        }
+    }
+}
+
 impl MethodName {
-    pub const ALL: [Self; 5] = [Self::Rc, Self::RcErt, Self::RcBlock, Self::NnOmni, Self::Cpu];
+    pub const ALL: [Self; 12] = [
+        Self::Rc,
+        Self::RcErt,
+        Self::RcBlock,
+        Self::NnOmni,
+        Self::NnDirectional,
+        Self::NnOptimal,
+        Self::NnCone,
+        Self::NnOmniFused,
+        Self::NnDirectionalFused,
+        Self::NnOptimalFused,
+        Self::NnConeFused,
+        Self::Cpu,
+    ];
 
     /// As on the command line, in files and in reports.
     pub fn name(self) -> &'static str {
@@ -262,8 +336,31 @@ impl MethodName {
             Self::RcErt => "rc-ert",
             Self::RcBlock => "rc-block",
             Self::NnOmni => "nn-omni",
+            Self::NnDirectional => "nn-directional",
+            Self::NnOptimal => "nn-optimal",
+            Self::NnCone => "nn-cone",
+            Self::NnOmniFused => "nn-omni+fused",
+            Self::NnDirectionalFused => "nn-directional+fused",
+            Self::NnOptimalFused => "nn-optimal+fused",
+            Self::NnConeFused => "nn-cone+fused",
             Self::Cpu => "cpu",
         }
+    }
+
+    /// The distances a method of near-neighbor skipping reads; none for the others.
+    pub fn distance(self) -> Option<Distance> {
+        match self {
+            Self::Rc | Self::RcErt | Self::RcBlock | Self::Cpu => None,
+            Self::NnOmni | Self::NnOmniFused => Some(Distance::Omni),
+            Self::NnDirectional | Self::NnDirectionalFused => Some(Distance::Directional),
+            Self::NnOptimal | Self::NnOptimalFused => Some(Distance::Optimal),
+            Self::NnCone | Self::NnConeFused => Some(Distance::Cone),
+        }
+    }
+
+    /// Whether main passes decide where the ray goes on, so that intermediate passes after the first are not needed.
+    pub fn fused(self) -> bool {
+        matches!(self, Self::NnOmniFused | Self::NnDirectionalFused | Self::NnOptimalFused | Self::NnConeFused)
     }
 }
 

@@ -17,13 +17,13 @@ pub const CODES: usize = 256;
 /// Relative slack of [`range_codes`]: c / 255, rounded to f32 and multiplied by 255 again, may miss c by a little less.
 const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 
-/// Blocks along each side, and the minimum and maximum over each block's voxels, x fastest. Holes count as what they
-/// were filled with, which can only make a range wider.
-pub fn ranges(field: &Field) -> ([usize; 3], Vec<[f32; 2]>) {
+/// Blocks of `side`^3 cells along each side of a volume, and the minimum and maximum over each block's voxels, x
+/// fastest. Holes count as what they were filled with, which can only make a range wider.
+pub fn ranges(field: &Field, side: usize) -> ([usize; 3], Vec<[f32; 2]>) {
     let [nx, ny, nz] = field.dims();
-    let dims = field.cells().map(|cells| cells.div_ceil(BLOCK));
+    let dims = field.cells().map(|cells| cells.div_ceil(side));
     let [bx, by, _] = dims;
-    let span = |block: usize, voxels: usize| block * BLOCK..(block * BLOCK + BLOCK + 1).min(voxels);
+    let span = |block: usize, voxels: usize| block * side..(block * side + side + 1).min(voxels);
     let ranges = (0..dims.iter().product())
         .into_par_iter()
         .map(|block| {
@@ -84,7 +84,7 @@ pub struct Blocks {
 
 impl Blocks {
     pub fn build(field: &Field, transfer: &TransferFunction) -> Self {
-        let (dims, ranges) = ranges(field);
+        let (dims, ranges) = ranges(field, BLOCK);
         Self { dims, ranges, table: visibility_table(transfer) }
     }
 

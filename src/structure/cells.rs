@@ -5,6 +5,8 @@
 
 use rayon::prelude::*;
 
+use super::blocks;
+use super::grid::Grid;
 use crate::scene::{Field, TransferFunction};
 
 /// How far interpolation may leave [min, max] by rounding, relative to the larger magnitude of both. A unit in the
@@ -74,9 +76,18 @@ fn at_most(x: f64) -> f32 {
     -at_least(-x)
 }
 
-/// One flag a cell (`field.cells()`, x fastest): whether the transfer function is visible over its values, widened
-/// by [`ROUNDING`]. Holes are not interesting.
-pub fn interesting(field: &Field, transfer: &TransferFunction) -> Vec<bool> {
+/// One flag a cell of `grid`, x fastest: whether the transfer function is visible over its values, widened by
+/// [`ROUNDING`]. Holes are not interesting; larger cells that have some count as what those were filled with.
+pub fn interesting(field: &Field, transfer: &TransferFunction, grid: &Grid) -> Vec<bool> {
+    if grid.cell > 1 {
+        let support = Support::of(transfer);
+        let (_, ranges) = blocks::ranges(field, grid.cell);
+        let meets = |[low, high]: [f32; 2]| {
+            let [low, high] = widened(low, high);
+            support.meets(low, high)
+        };
+        return ranges.into_par_iter().map(meets).collect();
+    }
     let [nx, ny, nz] = field.dims();
     let [cx, cy, cz] = field.cells();
     let support = Support::of(transfer);

@@ -15,17 +15,9 @@
 //! of 256 and more are one and the same, so parabolas that high are left out; (3) what is kept between the axes is
 //! f32, exact for isotropic spacing (integers up to 2^16) and else rounded down, which keeps the bound.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::scene::Field;
-
-/// A distance of at least so many voxels, or nothing interesting at all.
-pub const FAR: u8 = u8::MAX;
-
-/// What a distance is less than the true one before it is floored, in voxels: room for the rounding of whoever jumps
-/// by it, so that a sample exactly at the distance is not on the wrong side of a face.
-pub const SLACK: f64 = 1.0 / 512.0;
+use super::grid::{DistanceField, FAR, Grid, SLACK};
 
 /// From here on a distance is [`FAR`] with slack to spare.
 const REACH: u32 = FAR as u32 + 1;
@@ -36,39 +28,17 @@ const FAR_SQUARED: f64 = (REACH * REACH) as f64;
 /// Columns that are transformed together: a cache line of f32, so that each line is fetched once.
 const TILE: usize = 16;
 
-/// Whole voxels (of the finest spacing) that a ray may go from anywhere in a cell and not enter an interesting one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DistanceField {
-    /// Cells along x, y and z.
-    pub cells: [usize; 3],
-    /// One byte a cell, x fastest; 0 for interesting cells and those that touch one, [`FAR`] for that much or more.
-    pub distances: Vec<u8>,
-}
-
-impl DistanceField {
-    pub fn at(&self, [x, y, z]: [usize; 3]) -> u8 {
-        self.distances[(z * self.cells[1] + y) * self.cells[0] + x]
-    }
-}
-
-/// Sides of a cell in units of the finest spacing, exactly 1 where spacings are equal.
-pub fn cell_sides(field: &Field) -> DVec3 {
-    let spacing = DVec3::from_array(field.volume.spacing);
-    spacing / spacing.min_element()
-}
-
-/// Distances of all `cells` to the nearest that is `interesting` (one flag a cell, x fastest), for cells with the
-/// given `sides` in units of the finest spacing, each at least 1 ([`cell_sides`]). The bound is for exact positions:
-/// who steps along a ray in f32 owes it the rounding of the ray's own positions.
+/// Distances of all cells of `grid` to the nearest that is `interesting` (one flag a cell, x fastest). The bound is for
+/// exact positions: who steps along a ray in f32 owes it the rounding of the ray's own positions.
 ///
 /// # Panics
 /// When there is not one flag a cell.
-pub fn omni(cells: [usize; 3], sides: DVec3, interesting: &[bool]) -> DistanceField {
-    let [nx, ny, nz] = cells;
+pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
+    let ([nx, ny, nz], sides) = (grid.cells, grid.sides);
     assert_eq!(interesting.len(), nx * ny * nz, "one flag a cell");
     let mut distances = vec![FAR; interesting.len()];
     if !interesting.contains(&true) {
-        return DistanceField { cells, distances };
+        return DistanceField { grid: *grid, octants: 1, distances };
     }
 
     // Along x and y, slab by slab: squared distances within the slab.
@@ -110,7 +80,7 @@ pub fn omni(cells: [usize; 3], sides: DVec3, interesting: &[bool]) -> DistanceFi
             row.copy_from_slice(&turned[(y * nz + z) * nx..][..nx]);
         }
     });
-    DistanceField { cells, distances }
+    DistanceField { grid: *grid, octants: 1, distances }
 }
 
 /// The largest f32 that is not above `x`.

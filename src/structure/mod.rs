@@ -3,12 +3,50 @@
 pub mod blocks;
 pub mod cells;
 pub mod distance;
+pub mod grid;
 
-use crate::scene::{Field, TransferFunction};
-use distance::DistanceField;
+use glam::DVec3;
 
-/// The structure of `nn-omni`: distance from every cell to the nearest interesting one [Thesis §5.3.1].
-pub fn omni(field: &Field, transfer: &TransferFunction) -> DistanceField {
-    let interesting = cells::interesting(field, transfer);
-    distance::omni(field.cells(), distance::cell_sides(field), &interesting)
+use crate::scene::settings::Distance;
+use crate::scene::{Field, Scene, TransferFunction};
+use grid::{DistanceField, Grid};
+
+/// The distances a frame looks up: two frames with equal ones share a structure, as long as volume and transfer
+/// function stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lookup {
+    pub distance: Distance,
+    /// Side of a cell, in voxels.
+    pub cell: u32,
+    /// Where rays come from (volume space) and how far their directions may be off: for structures made for a view.
+    pub view: Option<LookupView>,
+}
+
+/// What `optimal` and `cone` were made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookupView {
+    pub eye: DVec3,
+    /// Half-angle of the cone about each cell's view direction, radians; none for the view's own rays only.
+    pub half_angle: Option<f64>,
+}
+
+impl Lookup {
+    /// What the scene's method looks up; none where it does not look ahead.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let method = &scene.settings.method;
+        let distance = method.name.distance()?;
+        let half_angle = match distance {
+            Distance::Omni | Distance::Directional => return Some(Self { distance, cell: method.cell, view: None }),
+            Distance::Optimal => None,
+            Distance::Cone => Some(method.cone.to_radians()),
+        };
+        Some(Self { distance, cell: method.cell, view: Some(LookupView { eye: scene.camera.eye, half_angle }) })
+    }
+}
+
+/// The structure of an `nn-*` method on the host: the twin of what compute shaders build.
+pub fn build(field: &Field, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
+    let grid = Grid::new(field, lookup.cell);
+    let interesting = cells::interesting(field, transfer, &grid);
+    distance::omni(&grid, &interesting)
 }
