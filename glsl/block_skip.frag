@@ -17,9 +17,9 @@
 #include "shared/block.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
-layout(set = 0, binding = 8, std430) readonly buffer BlockRange {
+layout(set = 0, binding = 8, std430) readonly buffer CellRange {
     vec2 ranges[];
-} block_range;
+} cell_range;
 // CT [KW03 §2.3]: whether anything shows between a minimum and a maximum.
 layout(set = 0, binding = 9) uniform usampler2D block_table;
 
@@ -30,7 +30,7 @@ const float BOUNDARY = 1e-3;
 
 bool block_visible(ivec3 block) {
     ivec3 blocks = block_count(ivec3(frame.dims.xyz));
-    vec2 range = block_range.ranges[(block.z * blocks.y + block.y) * blocks.x + block.x];
+    vec2 range = cell_range.ranges[(block.z * blocks.y + block.y) * blocks.x + block.x];
     return texelFetch(block_table, range_codes(range), 0).r != 0u;
 }
 

@@ -40,7 +40,7 @@ fn names_list_every_shader_with_its_variants() {
     let (found, expected): (BTreeSet<String>, _) = (glsl::names().map(str::to_owned).collect(), expected_names());
     assert_eq!(found, expected);
     // One file of each kind, known by heart, so that an empty list cannot pass.
-    for known in ["box.vert", "entry.frag", "main_pass.frag:discard+holes", "structure/block_range.comp"] {
+    for known in ["box.vert", "entry.frag", "main_pass.frag:discard+holes", "structure/cell_range.comp"] {
         assert!(found.contains(known), "{known}");
     }
     assert!(!found.contains("main_pass.frag"), "with variants there is no plain module");
@@ -61,7 +61,7 @@ fn unknown_name_names_the_nearest() {
     for (wrong, near) in [
         ("main_pass.frag:plane", "main_pass.frag:plain"),
         ("near_neighbour.frag:copy", "near_neighbor.frag:copy"),
-        ("block_range.comp", "structure/block_range.comp"),
+        ("block_range.comp", "structure/cell_range.comp"),
         ("entry", "entry.frag"),
     ] {
         let error = glsl::module(wrong).unwrap_err();
@@ -78,7 +78,7 @@ fn compiled(root: &Path, name: &str) -> Result<Vec<u32>, compile::Broken> {
 
 #[test]
 fn compiler_gives_the_words_of_the_table() {
-    for name in ["entry.frag", "main_pass.frag:holes", "structure/block_range.comp"] {
+    for name in ["entry.frag", "main_pass.frag:holes", "structure/cell_range.comp"] {
         assert_eq!(compiled(Path::new("glsl"), name).unwrap(), *glsl::module(name).unwrap(), "{name}");
     }
 }

@@ -214,7 +214,7 @@ fn whatever_is_left_out_has_a_reason() {
         let uses = |r: Resource| case.plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         for (what, resource) in [
             ("distance structure", Resource::NearestDistance),
-            ("block ranges and their table", Resource::BlockRange),
+            ("block ranges and their table", Resource::CellRange),
             ("hole mask", Resource::Holes),
         ] {
             let left = case.plan.left_out.iter().any(|l| l.what == what);

@@ -44,7 +44,7 @@ fn main_pass_binds_what_it_declares() {
 
 #[test]
 fn compute_shader_says_its_work_group() {
-    let shader = module("structure/block_range.comp");
+    let shader = module("structure/cell_range.comp");
     assert_eq!(shader.stage, vk::ShaderStageFlags::COMPUTE);
     assert_eq!(shader.execution_modes, ["LocalSize 4 4 4"]);
     let expected = [("volume", 3, TEXTURE), ("block_range", 8, vk::DescriptorType::STORAGE_BUFFER)];

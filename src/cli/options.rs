@@ -10,7 +10,7 @@ use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
 use crate::scene::settings::{
-    Accumulate, Alpha, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
+    Accumulate, Alpha, Builder, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
 };
 use crate::scene::transfer::PRESETS;
 use crate::scene::volume::VoxelType;
@@ -125,6 +125,9 @@ pub struct MethodOptions {
     /// nn-cone: half-angle around the view direction [default: 10]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     cone: Option<f64>,
+    /// nn-*: who builds the distances [default: auto]
+    #[arg(long, value_name = "WHO")]
+    build: Option<Builder>,
 }
 
 impl SceneOptions {
@@ -217,6 +220,7 @@ impl MethodOptions {
         method.block_first |= self.block_first;
         method.cell = self.cell.unwrap_or(method.cell);
         method.cone = self.cone.unwrap_or(method.cone);
+        method.build = self.build.unwrap_or(method.build);
     }
 }
 

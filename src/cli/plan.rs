@@ -126,7 +126,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
             reads: names(step, false),
             writes: names(step, true),
             shader: match &step.work {
-                crate::pass::Work::Dispatch { shader, .. } => Some(shader),
+                crate::pass::Work::Dispatch(dispatch) => Some(dispatch.shader.as_str()),
                 _ => draw.and_then(|d| d.shader.as_deref()),
             },
             constants: draw.map(|d| d.constants.clone()).unwrap_or_default(),

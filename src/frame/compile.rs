@@ -10,7 +10,7 @@ use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
 use crate::pass::resource::{Resource, Usage};
-use crate::pass::{Draw, Faces, Step, Work};
+use crate::pass::{Draw, Faces, Group, Step, Work};
 use crate::plan::{Plan, Region};
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Filter};
@@ -80,7 +80,7 @@ pub fn target_format(resource: Resource, accumulate: Accumulate) -> vk::Format {
 /// # Errors
 /// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
 pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut Resident) -> Result<Compiled> {
-    let steps: Vec<Step> = plan.steps.iter().filter(|s| !matches!(s.work, Work::Dispatch { .. })).cloned().collect();
+    let steps: Vec<Step> = plan.steps.iter().filter(|s| s.group != Group::Structure).cloned().collect();
     let accumulate = scene.settings.image.accumulate;
     let scheduled = schedule(&steps, |r| target_format(r, accumulate));
     let mut compiler = Compiler {
@@ -168,6 +168,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<
                 format: target_format(resource, accumulate),
                 usage,
                 volume: false,
+                shared: false,
             };
             Ok((resource, Image::new(device, info)?))
         })

@@ -230,7 +230,8 @@ impl GpuFrame {
             Work::Clear(resource) => {
                 commands.clear_color(&self.compiled.targets[resource]);
             }
-            Work::Dispatch { .. } => {}
+            // Structures are built before frames.
+            Work::Dispatch(_) | Work::Unpack { .. } => {}
         }
         if let Some(pool) = times {
             commands.timestamp(pool, 2 * i as u32 + 1);
@@ -382,7 +383,7 @@ impl GpuFrame {
 
     fn texels(&self) -> Region {
         let r = self.compiled.region;
-        Region { buffer_offset: 0, image_offset: [r.x, r.y, 0], extent: [r.width, r.height, 1] }
+        Region { buffer_offset: 0, image_offset: [r.x, r.y, 0], extent: [r.width, r.height, 1], row: 0 }
     }
 
     fn full_area(&self) -> vk::Rect2D {

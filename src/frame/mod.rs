@@ -1,7 +1,9 @@
 //! Runs plans: on a device ([`gpu`]) or in f64 through the twins ([`cpu`]).
 
+pub mod build;
 pub mod compile;
 pub mod cpu;
+pub mod distances;
 pub mod gpu;
 mod pipelines;
 pub mod resident;

@@ -10,7 +10,8 @@ use crate::error::Result;
 use crate::glsl;
 use crate::pass::DepthTest;
 use crate::vulkan::{
-    Blend, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo, Shader,
+    Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
+    Shader,
 };
 
 /// Steps that agree in all of this share one pipeline.
@@ -29,7 +30,11 @@ pub struct Pipelines {
     shaders: HashMap<String, Arc<Shader>>,
     render_passes: HashMap<RenderPassInfo, Arc<RenderPass>>,
     pipelines: HashMap<PipelineKey, Arc<GraphicsPipeline>>,
+    compute: HashMap<ComputeKey, Arc<ComputePipeline>>,
 }
+
+/// Shader and specialization constants.
+type ComputeKey = (String, Vec<(&'static str, u32)>);
 
 impl Pipelines {
     pub fn new(device: &Arc<Device>) -> Self {
@@ -38,6 +43,7 @@ impl Pipelines {
             shaders: HashMap::new(),
             render_passes: HashMap::new(),
             pipelines: HashMap::new(),
+            compute: HashMap::new(),
         }
     }
 
@@ -85,6 +91,29 @@ impl Pipelines {
             },
         )?);
         self.pipelines.insert(key.clone(), made.clone());
+        Ok(made)
+    }
+
+    /// The compute pipeline of `shader`; `name` is the step it was first made for.
+    ///
+    /// # Errors
+    /// As [`Pipelines::pipeline`].
+    pub fn compute(
+        &mut self,
+        shader: &str,
+        constants: &[(&'static str, u32)],
+        name: &str,
+    ) -> Result<Arc<ComputePipeline>> {
+        let key = (shader.to_owned(), constants.to_vec());
+        if let Some(known) = self.compute.get(&key) {
+            return Ok(known.clone());
+        }
+        let module = self.shader(shader)?;
+        // As above.
+        let known = |name: &str| module.spec_constants.iter().any(|(n, _)| n == name);
+        let constants: Vec<(&str, u32)> = constants.iter().copied().filter(|(name, _)| known(name)).collect();
+        let made = Arc::new(ComputePipeline::new(&self.device, name, &module, &constants)?);
+        self.compute.insert(key, made.clone());
         Ok(made)
     }
 

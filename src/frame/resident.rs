@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::distances::{Built, Distances, Source, distance_image};
 use super::pipelines::Pipelines;
-use super::structures::Structures;
+use super::structures::{Built as HostBuilt, Structures};
 use super::texture::Texels;
 use super::upload;
 use crate::error::{Error, Result};
@@ -16,7 +17,8 @@ use crate::scene::Scene;
 use crate::scene::settings::Filter;
 use crate::shared;
 use crate::structure::Lookup;
-use crate::structure::blocks::{self, Blocks};
+use crate::structure::blocks::{self, BLOCK};
+use crate::structure::cells::Support;
 use crate::structure::grid::DistanceField;
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 
@@ -25,11 +27,11 @@ pub struct Resident {
     device: Arc<Device>,
     images: HashMap<Resource, Image>,
     buffers: HashMap<Resource, Buffer>,
-    distances: Vec<(Lookup, Image)>,
+    distances: Distances,
     texels: Option<Texels>,
     pub(super) pipelines: Pipelines,
-    /// Time to build structures on the device, milliseconds of CPU time.
-    pub build_ms: HashMap<Resource, f64>,
+    /// What building the blocks' ranges took, milliseconds.
+    blocks_ms: Option<f64>,
 }
 
 impl Resident {
@@ -38,10 +40,10 @@ impl Resident {
             device: device.clone(),
             images: HashMap::new(),
             buffers: HashMap::new(),
-            distances: Vec::new(),
+            distances: Distances::default(),
             texels: None,
             pipelines: Pipelines::new(device),
-            build_ms: HashMap::new(),
+            blocks_ms: None,
         }
     }
 
@@ -50,46 +52,93 @@ impl Resident {
     }
 
     pub fn buffer(&self, resource: Resource) -> Option<&Buffer> {
-        self.buffers.get(&resource)
+        match resource {
+            // What frames read are the blocks' ranges.
+            Resource::CellRange => self.distances.ranges(BLOCK as u32),
+            _ => self.buffers.get(&resource),
+        }
     }
 
     /// The distances of that kind.
     pub fn distance(&self, lookup: &Lookup) -> Option<&Image> {
-        self.distances.iter().find(|(made, _)| made == lookup).map(|(_, image)| image)
+        self.distances.get(lookup).map(|built| &built.image)
     }
 
     /// Bytes of each resource that the plan reads.
     pub fn bytes(&self, plan: &Plan) -> Vec<(Resource, u64)> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         let images = self.images.iter().map(|(r, i)| (*r, i.bytes()));
-        let buffers = self.buffers.iter().map(|(r, b)| (*r, b.bytes()));
+        let ranges = self.buffer(Resource::CellRange).map(|b| (Resource::CellRange, b));
+        let buffers = self.buffers.iter().map(|(r, b)| (*r, b)).chain(ranges).map(|(r, b)| (r, b.bytes()));
         let distance = plan.distance.and_then(|lookup| self.distance(&lookup));
         let distance = distance.map(|image| (Resource::NearestDistance, image.bytes()));
         images.chain(buffers).filter(|(r, _)| reads(*r)).chain(distance).collect()
     }
 
-    /// Makes what the plan reads and is not there yet.
+    /// Makes what the plan reads and is not there yet. Distances that `structures` holds are taken from there, others
+    /// are built on the device.
     ///
     /// # Errors
     /// When the volume is larger than the device allows, or cannot be filtered there.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan, structures: &Structures) -> Result<()> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        for resource in
-            [Resource::Volume, Resource::Holes, Resource::Transfer, Resource::BlockTable, Resource::BlockRange]
-        {
+        for resource in [Resource::Volume, Resource::Holes, Resource::Transfer, Resource::BlockTable] {
             let there = self.images.contains_key(&resource) || self.buffers.contains_key(&resource);
             if reads(resource) && !there {
                 self.make(resource, scene)?;
             }
         }
-        if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none())
-            && let Some(built) = structures.distance(&lookup)
-        {
-            let (value, format) = (&built.value, distance_format(&built.value));
-            let image = self.upload_image(Resource::NearestDistance, value.grid.cells, format, &value.distances)?;
-            self.distances.push((lookup, image));
+        if reads(Resource::BlockTable) && self.buffer(Resource::CellRange).is_none() {
+            let ms = self.with_source(scene, |distances, device, pipelines, source| {
+                distances.build_ranges(device, pipelines, source, BLOCK as u32)
+            })?;
+            self.blocks_ms = Some(ms);
         }
+        let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) else { return Ok(()) };
+        match structures.distance(&lookup) {
+            Some(built) => self.take(&lookup, built),
+            None => self.with_source(scene, |distances, device, pipelines, source| {
+                distances.build(device, pipelines, source, &lookup)
+            }),
+        }
+    }
+
+    /// Uploads distances that were built on the host.
+    fn take(&mut self, lookup: &Lookup, host: &HostBuilt<DistanceField>) -> Result<()> {
+        let value = &host.value;
+        let image = distance_image(&self.device, &value.grid, value.octants, lookup.view.is_none())?;
+        upload::image(&self.device, &image, &value.distances)?;
+        self.distances.put(Built { lookup: *lookup, image, ms: host.cpu_ms });
         Ok(())
+    }
+
+    /// Milliseconds that building what the plan looks up took.
+    pub fn build_ms(&self, plan: &Plan) -> Option<f64> {
+        let distance = plan.distance.and_then(|lookup| self.distances.get(&lookup)).map(|built| built.ms);
+        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        let blocks = reads(Resource::BlockTable).then(|| self.blocks_ms).flatten();
+        distance.or(blocks)
+    }
+
+    /// Does something with the distances and what they are built from.
+    fn with_source<T>(
+        &mut self,
+        scene: &Scene,
+        build: impl FnOnce(&mut Distances, &Arc<Device>, &mut Pipelines, Source) -> Result<T>,
+    ) -> Result<T> {
+        for resource in [Resource::Volume, Resource::Holes] {
+            let needed = resource == Resource::Volume || scene.field.holes.is_some();
+            if needed && !self.images.contains_key(&resource) {
+                self.make(resource, scene)?;
+            }
+        }
+        let support = Support::of(&self.texels(scene).transfer(&scene.transfer));
+        let Some(volume) = self.images.get(&Resource::Volume) else {
+            return Err(Error::device(&self.device.info.name, "has no volume to build from", "report this bug"));
+        };
+        let source =
+            Source { field: &scene.field, volume, holes: self.images.get(&Resource::Holes), support: &support };
+        build(&mut self.distances, &self.device, &mut self.pipelines, source)
     }
 
     fn make(&mut self, resource: Resource, scene: &Scene) -> Result<()> {
@@ -126,23 +175,6 @@ impl Resident {
                 let image = self.upload_image(resource, [256, 256, 1], vk::Format::R8_UINT, &table)?;
                 self.images.insert(resource, image);
             }
-            Resource::BlockRange => {
-                let count = Blocks::dims(field).iter().product::<usize>();
-                let buffer = Buffer::new(
-                    &self.device,
-                    BufferInfo {
-                        name: resource.name().to_owned(),
-                        size: (count * size_of::<[f32; 2]>()) as u64,
-                        usage: vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC,
-                        place: Place::Device,
-                    },
-                )?;
-                if let Some(volume) = self.images.get(&Resource::Volume) {
-                    let ms = upload::build_block_range(&self.device, field, volume, &buffer)?;
-                    self.build_ms.insert(resource, ms);
-                }
-                self.buffers.insert(resource, buffer);
-            }
             _ => {}
         }
         Ok(())
@@ -165,16 +197,12 @@ impl Resident {
                 format,
                 usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
                 volume: resource != Resource::BlockTable,
+                shared: false,
             },
         )?;
         upload::image(&self.device, &image, bytes)?;
         Ok(image)
     }
-}
-
-/// A byte a cell, or all octants of a cell in one texel.
-fn distance_format(distance: &DistanceField) -> vk::Format {
-    if distance.octants == 1 { vk::Format::R8_UINT } else { vk::Format::R32G32_UINT }
 }
 
 fn check_format(device: &Device, format: vk::Format, filter: Filter) -> Result<()> {

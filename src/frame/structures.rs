@@ -33,7 +33,7 @@ impl Structures {
             self.distances.push((lookup, timed(build, |d| d.distances.len() as u64)));
         }
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        if self.blocks.is_none() && reads(Resource::BlockRange) {
+        if self.blocks.is_none() && reads(Resource::CellRange) {
             self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
         }
     }

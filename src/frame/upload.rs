@@ -3,17 +3,10 @@
 use std::sync::Arc;
 
 use ash::vk;
-use cpu_time::ProcessTime;
 
 use crate::error::Result;
-use crate::glsl;
-use crate::pass::resource::{Resource, Usage};
-use crate::pass::{Work, block_range};
-use crate::scene::Field;
-use crate::vulkan::{
-    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, Place, Region, Resource as Bound,
-    Sampler, Scope, Shader,
-};
+use crate::pass::resource::Usage;
+use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Image, Place, Region, Scope};
 
 const COPY_READ: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
 const COPY_WRITE: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
@@ -49,50 +42,6 @@ pub fn image(device: &Arc<Device>, image: &Image, texels: &[u8]) -> Result<()> {
 
 fn finish(device: &Arc<Device>, commands: Commands) -> Result<()> {
     device.graphics.submit(&commands.finish()?, &[])?.wait()
-}
-
-/// Minimum and maximum of every block, by the compute queue: the graphics queue hands the volume over and takes
-/// it back where the two are of different families. The CPU time it took, milliseconds.
-///
-/// # Errors
-/// What the driver reports.
-pub fn build_block_range(device: &Arc<Device>, field: &Field, volume: &Image, ranges: &Buffer) -> Result<f64> {
-    let step = block_range::block_range(field);
-    let Work::Dispatch { shader: name, groups } = step.work else { return Ok(0.0) };
-    let shader = Shader::new(name, &glsl::module(name)?)?;
-    let pipeline = ComputePipeline::new(device, &step.name, &shader, &[])?;
-    let sampler = Sampler::new(device, "nearest", false)?;
-    let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-    let bound = [
-        (Resource::Volume.name(), Bound::Sampled(volume, &sampler, read)),
-        (Resource::BlockRange.name(), Bound::Storage(ranges)),
-    ];
-    let set = DescriptorSet::new(device, &step.name, &pipeline.layout, &bound)?;
-    let begin = ProcessTime::now();
-    let (graphics, compute) = (&device.graphics, &device.compute);
-
-    let mut give = Commands::begin(device, graphics, "volume to compute")?;
-    give.image_release(volume, scope(Usage::Sampled), read, read, compute);
-    let give = give.finish()?;
-    let given = graphics.submit(&give, &[])?;
-
-    let mut build = Commands::begin(device, compute, &step.name)?;
-    build.label_begin(&step.name);
-    build.image_acquire(volume, scope(Usage::ComputeRead), read, read, graphics);
-    build.bind_compute(&pipeline, &set);
-    build.dispatch(groups);
-    build.image_release(volume, scope(Usage::ComputeRead), read, read, graphics);
-    build.buffer_release(ranges, scope(Usage::ComputeWrite), graphics);
-    build.label_end();
-    let build = build.finish()?;
-    let built = compute.submit(&build, &[&given])?;
-
-    let mut take = Commands::begin(device, graphics, "block_range to graphics")?;
-    take.image_acquire(volume, scope(Usage::Sampled), read, read, compute);
-    take.buffer_acquire(ranges, scope(Usage::Sampled), compute);
-    let take = take.finish()?;
-    graphics.submit(&take, &[&built])?.wait()?;
-    Ok(begin.elapsed().as_secs_f64() * 1e3)
 }
 
 /// The texels of `area` of an image that is in `layout`, rows tightly packed; it is left as a copy's source.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! becomes one module for each such line, with those macros defined; without such a line it is one module.
-//! Modules are named by their path from the root, `structure/block_range.comp`, variants `main_pass.frag:counting`.
+//! Modules are named by their path from the root, `structure/cell_range.comp`, variants `main_pass.frag:counting`.
 
 use shaderc::{CompileOptions, Compiler, ResolvedInclude, ShaderKind};
 use std::fmt;

@@ -12,14 +12,14 @@ use super::record::{Counts, FORMAT, Ideal, LeftOut, PassTimes, Run};
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
 use crate::frame::{
-    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
+    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, distances,
 };
 use crate::pass::Group;
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, MethodName, MethodSettings};
+use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -153,7 +153,9 @@ impl<'a> Runner<'a> {
             return prepare_cpu(scene, plan);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
-        self.structures.prepare(&scene, &plan);
+        if builds_on_host(&checked.device, &scene, &plan) {
+            self.structures.prepare(&scene, &plan);
+        }
         resident.prepare(&scene, &plan, &self.structures)?;
         let mut frame = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
         for _ in 0..effort.warmups {
@@ -254,20 +256,13 @@ impl<'a> Runner<'a> {
         notes
     }
 
-    /// Time to build what the plan looks up, CPU and device together.
+    /// Time to build what the plan looks up.
     fn build_ms(&self, plan: &Plan) -> Option<Timing> {
-        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        let mut ms = 0.0;
-        if let Some(distance) = plan.distance.and_then(|lookup| self.structures.distance(&lookup)) {
-            ms += distance.cpu_ms;
-        }
-        let on_device = self.resident.iter().flat_map(|r| &r.build_ms);
-        ms += on_device.filter(|(r, _)| reads(**r)).map(|(_, built)| built).sum::<f64>();
-        (ms > 0.0).then(|| Timing::once(ms))
+        self.resident.as_ref().and_then(|resident| resident.build_ms(plan)).map(Timing::once)
     }
 
     fn structure_bytes(&self, plan: &Plan) -> u64 {
-        let structures = [Resource::NearestDistance, Resource::BlockRange, Resource::BlockTable];
+        let structures = [Resource::NearestDistance, Resource::CellRange, Resource::BlockTable];
         let there = self.resident.iter().flat_map(|resident| resident.bytes(plan));
         there.filter(|(r, _)| structures.contains(r)).map(|(_, b)| b).sum()
     }
@@ -311,6 +306,18 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
     };
     let picture = single(&frame, scene.settings.image.size)?;
     Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
+}
+
+/// Whether the host builds the distances: where it is asked to, where the device has no room to, and on a device that is
+/// a CPU the transforms, at which the host is the faster (`cargo bench --bench structure`).
+fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
+    let Some(lookup) = &plan.distance else { return false };
+    match scene.settings.method.build {
+        Builder::Host => true,
+        _ if !distances::fits(device, &scene.field, lookup) => true,
+        Builder::Device => false,
+        Builder::Auto => device.info.is_cpu() && lookup.view.is_none(),
+    }
 }
 
 fn no_device() -> Error {

@@ -15,7 +15,7 @@ pub fn block_skip(scene: &Scene, pass: u32, form: cull::Form) -> Step {
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::Accumulated),
-        Usage::Sampled.of(Resource::BlockRange),
+        Usage::Sampled.of(Resource::CellRange),
         Usage::Sampled.of(Resource::BlockTable),
     ];
     let shader = format!("block_skip.frag:{}", form.mark_variant());

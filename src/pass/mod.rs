@@ -4,8 +4,8 @@
 //! import each other; what they share is a formula or a named resource.
 
 pub mod alive;
-pub mod block_range;
 pub mod block_skip;
+pub mod build;
 pub mod clear;
 pub mod cull;
 pub mod direction;
@@ -19,6 +19,7 @@ pub mod termination;
 use ash::vk;
 
 use crate::reference::TwinPass;
+use crate::shared::Slice;
 use resource::{Access, Resource};
 
 /// One line of a plan: a pass with everything it needs to run.
@@ -83,10 +84,27 @@ pub enum Work {
     },
     /// To transparent black.
     Clear(Resource),
-    Dispatch {
-        shader: &'static str,
-        groups: [u32; 3],
+    Dispatch(Dispatch),
+    /// Distances, packed into bytes, to the texture that frames read.
+    Unpack {
+        from: Resource,
+        to: Resource,
     },
+}
+
+/// A compute step of a structure's build, run in slices.
+#[derive(Clone, Debug)]
+pub struct Dispatch {
+    /// Compute shader, with its variant.
+    pub shader: String,
+    /// Specialization constants, by name.
+    pub constants: Vec<(&'static str, u32)>,
+    /// What is bound, by the names in the shader.
+    pub bound: Vec<(&'static str, Resource)>,
+    /// All of it: `first` is 0, `end` the number of invocations.
+    pub slice: Slice,
+    /// Cells an invocation goes through: what a slice costs.
+    pub cells: u32,
 }
 
 /// Drawing the volume's box.

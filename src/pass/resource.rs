@@ -28,10 +28,26 @@ pub enum Resource {
     Transfer,
     /// Distance to the nearest interesting cell.
     NearestDistance,
-    /// Minimum and maximum of every block.
-    BlockRange,
+    /// Minimum and maximum of every cell of a grid, or every block [KW03 §2.3].
+    CellRange,
     /// CT [KW03 §2.3].
     BlockTable,
+    /// Where the transfer function shows anything.
+    Support,
+    /// A bit for each cell: whether it is interesting.
+    Interesting,
+    /// Any interesting cell among 2^3, or 4^3, from each cell on.
+    Wide2,
+    Wide4,
+    /// Squared distances on their way through the axes.
+    Squares,
+    SquaresAfter,
+    /// Distances on their way to the texture.
+    DistanceBytes,
+    /// The distances in any direction, where others are made from them.
+    OmniDistance,
+    /// The bundles of rays that distances are made for, a uniform buffer.
+    Bundle,
 }
 
 impl Resource {
@@ -49,8 +65,17 @@ impl Resource {
             Self::Holes => "holes",
             Self::Transfer => "transfer",
             Self::NearestDistance => "nearest_distance",
-            Self::BlockRange => "block_range",
+            Self::CellRange => "cell_range",
             Self::BlockTable => "block_table",
+            Self::Support => "support",
+            Self::Interesting => "interesting",
+            Self::Wide2 => "wide_2",
+            Self::Wide4 => "wide_4",
+            Self::Squares => "squares",
+            Self::SquaresAfter => "squares_after",
+            Self::DistanceBytes => "distance_bytes",
+            Self::OmniDistance => "omni_distance",
+            Self::Bundle => "bundle",
         }
     }
 

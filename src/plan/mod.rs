@@ -149,7 +149,7 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
     if !uses(Resource::NearestDistance) {
         leave("distance structure", format!("{name} does not look ahead"));
     }
-    if !uses(Resource::BlockRange) {
+    if !uses(Resource::CellRange) {
         leave("block ranges and their table", format!("{name} does not look at blocks"));
     }
     if scene.field.holes.is_none() {

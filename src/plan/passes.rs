@@ -3,10 +3,13 @@
 use super::View;
 use crate::pass::cull::{Form, Mark};
 use crate::pass::{
-    Step, alive, block_range, block_skip, clear, direction, entry, main_pass, mark_copy, near_neighbor, termination,
+    Step, alive, block_skip, build, clear, direction, entry, main_pass, mark_copy, near_neighbor, termination,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodName};
+use crate::structure::Lookup;
+use crate::structure::blocks::BLOCK;
+use crate::structure::grid::Grid;
 
 /// Every so many main passes the rays that are left are counted.
 pub const BATCH: u32 = 8;
@@ -19,7 +22,10 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
     let method = &scene.settings.method;
     let mut steps = Vec::new();
     if method.name == MethodName::RcBlock {
-        steps.push(block_range::block_range(&scene.field));
+        steps.push(build::cell_range(&Grid::new(&scene.field, BLOCK as u32)));
+    }
+    if let Some(lookup) = Lookup::of(scene) {
+        steps.extend(build::steps(&scene.field, &lookup));
     }
     steps.push(entry::entry());
     steps.push(direction::direction());

@@ -33,7 +33,7 @@ fn line(step: &Step) -> String {
             ("graphics", detail)
         }
         Work::Copy { .. } | Work::Clear(_) => ("transfer", String::new()),
-        Work::Dispatch { .. } => ("compute", String::new()),
+        Work::Dispatch(_) | Work::Unpack { .. } => ("compute", String::new()),
     };
     let (reads, writes) = (names(false), names(true));
     let arrow = match (reads.is_empty(), writes.is_empty()) {

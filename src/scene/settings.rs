@@ -232,6 +232,20 @@ pub struct MethodSettings {
     pub cell: u32,
     /// `nn-cone`: the half-angle around a voxel's view direction, in degrees: one of [`CONES`].
     pub cone: f64,
+    pub build: Builder,
+}
+
+/// Who builds the distances.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Builder {
+    /// The host for a device that is a CPU where it is the faster, else the device.
+    #[default]
+    Auto,
+    /// Compute shaders, on the compute queue.
+    Device,
+    /// The CPU.
+    Host,
 }
 
 /// Sides a cell of a distance structure may have.
@@ -250,6 +264,7 @@ impl Default for MethodSettings {
             block_first: false,
             cell: 1,
             cone: 10.0,
+            build: Builder::Auto,
         }
     }
 }

@@ -1,5 +1,11 @@
 //! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
 
+mod bundle;
+mod slice;
+
+pub use bundle::Bundle;
+pub use slice::Slice;
+
 use bytemuck::{Pod, Zeroable};
 
 use crate::math::ray::ViewRays;

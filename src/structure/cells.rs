@@ -58,6 +58,11 @@ impl Support {
         Self(closed.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())
     }
 
+    /// The intervals; where nothing shows, one that nothing meets.
+    pub fn closed(&self) -> Vec<[f32; 2]> {
+        if self.0.is_empty() { vec![[f32::INFINITY, f32::NEG_INFINITY]] } else { self.0.clone() }
+    }
+
     /// Whether anything in `[low, high]` is visible.
     pub fn meets(&self, low: f32, high: f32) -> bool {
         let not_below = self.0.partition_point(|interval| interval[1] < low);

@@ -4,6 +4,7 @@ pub mod blocks;
 pub mod cells;
 pub mod distance;
 pub mod grid;
+pub mod square;
 
 use glam::DVec3;
 

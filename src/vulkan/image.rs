@@ -23,6 +23,8 @@ pub struct ImageInfo {
     pub usage: vk::ImageUsageFlags,
     /// 3D rather than 2D.
     pub volume: bool,
+    /// Graphics and compute queue may read it at the same time, so that no family owns it.
+    pub shared: bool,
 }
 
 /// An image of one level and one layer in device memory, with its view.
@@ -54,6 +56,12 @@ impl Image {
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(info.usage);
+        let families = [device.graphics.family, device.compute.family];
+        let create = if info.shared && families[0] != families[1] {
+            create.sharing_mode(vk::SharingMode::CONCURRENT).queue_family_indices(&families)
+        } else {
+            create
+        };
         // SAFETY: the limits were checked; on every error what was made so far is destroyed, unused.
         let inner = unsafe {
             let handle = device.check("vkCreateImage", &info.name, device.raw.create_image(&create, None))?;
@@ -149,7 +157,7 @@ fn packed_bytes(info: &ImageInfo) -> Option<u64> {
 }
 
 fn check_limits(device: &Device, info: &ImageInfo) -> Result<()> {
-    let ImageInfo { name, extent, format, usage, volume } = info;
+    let ImageInfo { name, extent, format, usage, volume, shared: _ } = info;
     let [width, height, depth] = *extent;
     if extent.contains(&0) || (!volume && depth != 1) || usage.is_empty() {
         return Err(misuse(name, format!("{extent:?} texels, usage {usage:?}: no such image")));

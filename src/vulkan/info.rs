@@ -72,6 +72,13 @@ pub struct DeviceInfo {
     pub physical: vk::PhysicalDevice,
 }
 
+impl DeviceInfo {
+    /// Whether the CPU does a device's work: its time is then that of the process.
+    pub fn is_cpu(&self) -> bool {
+        self.kind == DeviceKind::Cpu
+    }
+}
+
 impl Instance {
     /// All devices the loader knows, usable or not.
     ///

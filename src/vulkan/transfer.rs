@@ -9,7 +9,7 @@ use super::image::{Image, whole};
 use super::queue::Queue;
 use super::render_pass::Scope;
 
-/// A part of an image and where its texels stand in a buffer, tightly packed.
+/// A part of an image and where its texels stand in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
     /// Bytes.
@@ -18,12 +18,14 @@ pub struct Region {
     pub image_offset: [u32; 3],
     /// Texels.
     pub extent: [u32; 3],
+    /// Texels from one row to the next in the buffer; 0 where they are tightly packed.
+    pub row: u32,
 }
 
 impl Region {
     /// All of the image, at the start of the buffer.
     pub fn whole(image: &Image) -> Self {
-        Self { buffer_offset: 0, image_offset: [0; 3], extent: image.info.extent }
+        Self { buffer_offset: 0, image_offset: [0; 3], extent: image.info.extent, row: 0 }
     }
 }
 
@@ -57,7 +59,7 @@ impl Commands {
         after: vk::ImageLayout,
         to: &Queue,
     ) {
-        let families = families(self.family, to.family);
+        let families = image_families(image, self.family, to.family);
         self.record_image_barrier(image, source, SEMAPHORE, (before, after), families);
     }
 
@@ -70,7 +72,7 @@ impl Commands {
         after: vk::ImageLayout,
         from: &Queue,
     ) {
-        let families = families(from.family, self.family);
+        let families = image_families(image, from.family, self.family);
         let before = if families == SAME { after } else { before };
         self.record_image_barrier(image, SEMAPHORE, target, (before, after), families);
     }
@@ -196,7 +198,14 @@ impl Commands {
             self.misused(&image.info.name, format!("{region:?} of {:?} texels", image.info.extent));
             return None;
         }
-        let texels = region.extent.iter().try_fold(1_u64, |all, &side| all.checked_mul(side.into()))?;
+        let [width, height, depth] = region.extent.map(u64::from);
+        let row = if region.row == 0 { width } else { region.row.into() };
+        if row < width {
+            self.misused(&image.info.name, format!("rows of {width} texels in rows of {row}"));
+            return None;
+        }
+        // The last row need not be whole.
+        let texels = row.checked_mul(height.checked_mul(depth)?.checked_sub(1)?)?.checked_add(width)?;
         let bytes = texels.checked_mul(texel_bytes(image.info.format)?)?;
         if !self.fits(buffer, region.buffer_offset, bytes) {
             return None;
@@ -207,11 +216,17 @@ impl Commands {
         Some(
             vk::BufferImageCopy::default()
                 .buffer_offset(region.buffer_offset)
+                .buffer_row_length(region.row)
                 .image_subresource(layers)
                 .image_offset(vk::Offset3D { x, y, z })
                 .image_extent(vk::Extent3D { width, height, depth }),
         )
     }
+}
+
+/// An image that is shared belongs to no family.
+fn image_families(image: &Image, from: u32, to: u32) -> Families {
+    if image.info.shared { SAME } else { families(from, to) }
 }
 
 fn families(from: u32, to: u32) -> Families {

@@ -74,7 +74,7 @@ fn run(device: &Arc<Device>, name: &str, record: impl FnOnce(&mut Commands)) {
 /// An image of f32 components, to be read by compute shaders.
 pub fn image(device: &Arc<Device>, name: &str, extent: [u32; 3], format: vk::Format, values: &[f32]) -> Image {
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-    let info = ImageInfo { name: name.to_owned(), extent, format, usage, volume: extent[2] > 1 };
+    let info = ImageInfo { name: name.to_owned(), extent, format, usage, volume: extent[2] > 1, shared: false };
     let image = Image::new(device, info).unwrap();
     let bytes: &[u8] = bytemuck::cast_slice(values);
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;

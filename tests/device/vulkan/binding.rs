@@ -43,7 +43,9 @@ fn bound(device: &Arc<Device>, pipeline: &ComputePipeline, numbers: &Buffer) -> 
 fn texel(device: &Arc<Device>, name: &str, value: f32) -> Image {
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
     let (format, extent) = (vk::Format::R32_SFLOAT, [1; 3]);
-    let image = Image::new(device, ImageInfo { name: name.to_owned(), extent, format, usage, volume: false }).unwrap();
+    let image =
+        Image::new(device, ImageInfo { name: name.to_owned(), extent, format, usage, volume: false, shared: false })
+            .unwrap();
     let bytes = uploaded(device, "texel", &value.to_ne_bytes());
     let (to, read) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     run(device, "texel", |commands| {
@@ -104,7 +106,7 @@ fn names_that_shaders_do_not_have_are_ignored(device: &Arc<Device>) {
 
 fn set_of_another_layout_is_refused(device: &Arc<Device>) {
     let pipeline = counter(device, &[]);
-    let range = shader_of_the_program("structure/block_range.comp");
+    let range = shader_of_the_program("structure/cell_range.comp");
     let other = ComputePipeline::new(device, "block_range", &range, &[]).unwrap();
     let numbers = buffer(device, "numbers", 4, Place::Device);
     let set = bound(device, &pipeline, &numbers);

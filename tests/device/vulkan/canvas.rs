@@ -71,6 +71,7 @@ impl Canvas {
                 format,
                 usage: usage | copied,
                 volume: false,
+                shared: false,
             };
             Image::new(device, info).unwrap()
         };

@@ -127,7 +127,7 @@ fn image_takes_a_region(device: &Arc<Device>) {
     let image = new_image(device, [5, 3, 1], vk::Format::R8_UNORM, copied()).unwrap();
     let square = uploaded(device, "square", &[9, 9, 9, 9, 1, 2, 3, 4]);
     let to = buffer(device, "to", 15, Place::Readback);
-    let part = Region { buffer_offset: 4, image_offset: [3, 1, 0], extent: [2, 2, 1] };
+    let part = Region { buffer_offset: 4, image_offset: [3, 1, 0], extent: [2, 2, 1], row: 0 };
     run(device, "region", |commands| {
         let clear = Scope::new(vk::PipelineStageFlags2::CLEAR, vk::AccessFlags2::TRANSFER_WRITE);
         commands.image_barrier(&image, Scope::NONE, clear, vk::ImageLayout::UNDEFINED, TO);
@@ -151,7 +151,8 @@ fn image_without_texels_is_refused(device: &Arc<Device>) {
     let format = vk::Format::R8_UNORM;
     refused(new_image(device, [4, 0, 1], format, copied()), &["wanted", "[4, 0, 1] texels"]);
     refused(new_image(device, [4, 4, 1], format, vk::ImageUsageFlags::empty()), &["wanted", "usage"]);
-    let flat = ImageInfo { name: "flat".to_owned(), extent: [4, 4, 2], format, usage: copied(), volume: false };
+    let flat =
+        ImageInfo { name: "flat".to_owned(), extent: [4, 4, 2], format, usage: copied(), volume: false, shared: false };
     refused(Image::new(device, flat), &["flat", "[4, 4, 2] texels"]);
 }
 
@@ -177,7 +178,7 @@ fn region_outside_is_refused(device: &Arc<Device>) {
     let image = new_image(device, [5, 3, 1], vk::Format::R16_UNORM, copied()).unwrap();
     let texels = uploaded(device, "texels", &[0; 30]);
     let copy = |image_offset, extent, buffer_offset| {
-        let region = Region { buffer_offset, image_offset, extent };
+        let region = Region { buffer_offset, image_offset, extent, row: 0 };
         misuse(device, |commands| commands.copy_buffer_to_image(&texels, &image, region))
     };
     refused(copy([1, 0, 0], [5, 3, 1], 0), &["wanted", "of [5, 3, 1] texels"]);

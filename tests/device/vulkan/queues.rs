@@ -133,13 +133,14 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
                 format: vk::Format::R32_SFLOAT,
                 usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
                 volume: true,
+                shared: false,
             },
         )
         .unwrap();
         let bytes = expected.len() as u64 * 8;
         let ranges = buffer(device, "block_range", bytes, Place::Device);
         let result = buffer(device, "result", bytes, Place::Readback);
-        let name = "structure/block_range.comp";
+        let name = "structure/cell_range.comp";
         let build = Shader::new(name, &glsl::module(name).unwrap()).unwrap();
         let build = ComputePipeline::new(device, "block_range", &build, &[]).unwrap();
         let sampler = Sampler::new(device, "nearest", false).unwrap();

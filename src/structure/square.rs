@@ -1,0 +1,25 @@
+//! Squared distances in integers, so that every builder on every device finds the same. Twin of
+//! `glsl/shared/square.glsl`.
+//!
+//! The unit is 2^-13 of a squared voxel of the finest spacing. A side of a cell is squared and rounded down to it, which
+//! keeps sums of squares lower bounds and changes nothing where spacings are equal.
+
+/// Units in a squared voxel.
+pub const UNIT: u32 = 1 << 13;
+
+/// 256 voxels; all that is no nearer is one and the same.
+pub const FAR_SQUARED: u32 = (1 << 16) * UNIT;
+
+/// Square of a cell's side, which is given in voxels of the finest spacing.
+pub fn weight(side: f64) -> u32 {
+    let square = (side * side * f64::from(UNIT)).floor();
+    if square < f64::from(FAR_SQUARED) { square as u32 } else { FAR_SQUARED }
+}
+
+/// The least number of cells of that weight that reach [`FAR_SQUARED`].
+pub fn reach(weight: u32) -> u32 {
+    let cells = (f64::from(FAR_SQUARED) / f64::from(weight)).sqrt() as u32;
+    // A root may be off by one either way.
+    let far = |cells: u32| u64::from(cells) * u64::from(cells) * u64::from(weight) >= u64::from(FAR_SQUARED);
+    (cells.saturating_sub(1)..).find(|&cells| far(cells)).unwrap_or(u32::MAX)
+}
