@@ -25,16 +25,25 @@ use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 pub struct Built {
     pub lookup: Lookup,
     pub image: Image,
-    /// CPU time of the process on a device that is a CPU, else device time; milliseconds.
+    /// What building them took from the volume on, pipelines not counted: CPU time of the process on a device that is
+    /// a CPU, else device time; milliseconds.
     pub ms: f64,
+    /// The part of it that every new view takes.
+    pub view_ms: f64,
 }
 
 /// What the structures of one scene are made from and those that were made.
 #[derive(Default)]
 pub struct Distances {
     /// By side of the cells and resource.
-    parts: HashMap<(u32, Resource), Buffer>,
+    parts: HashMap<(u32, Resource), Part>,
     built: Vec<Built>,
+}
+
+/// A buffer and what filling it took, milliseconds.
+struct Part {
+    buffer: Buffer,
+    ms: f64,
 }
 
 /// What builds read of the scene.
@@ -64,7 +73,7 @@ impl Distances {
 
     /// Ranges of the values in cells of that side.
     pub fn ranges(&self, cell: u32) -> Option<&Buffer> {
-        self.parts.get(&(cell, Resource::CellRange))
+        self.parts.get(&(cell, Resource::CellRange)).map(|part| &part.buffer)
     }
 
     /// Takes distances that were made elsewhere.
@@ -95,7 +104,8 @@ impl Distances {
         cell: u32,
     ) -> Result<f64> {
         let grid = Grid::new(source.field, cell);
-        self.run_parts(device, pipelines, source, &grid, &[steps::cell_range(&grid)])
+        self.build_parts(device, pipelines, source, &grid, &[steps::cell_range(&grid)])?;
+        Ok(self.parts.get(&(cell, Resource::CellRange)).map_or(0.0, |part| part.ms))
     }
 
     /// Builds distances on the device and waits for them.
@@ -109,11 +119,9 @@ impl Distances {
         source: Source,
         lookup: &Lookup,
     ) -> Result<()> {
-        let begin = ProcessTime::now();
         let mut pending = self.begin(device, pipelines, source, lookup)?;
-        pending.job.run(&[])?;
-        let cpu_ms = begin.elapsed().as_secs_f64() * 1e3;
-        self.finish(device, pending, cpu_ms)
+        let ms = timed(device, &mut pending.job)?;
+        self.finish(device, pending, ms)
     }
 
     /// Records a build; what it needs of volume and transfer function is built first.
@@ -142,7 +150,7 @@ impl Distances {
         if lookup.view.is_some() {
             first.extend(steps::widen(&grid));
         }
-        self.run_parts(device, pipelines, source, &grid, &first)?;
+        self.build_parts(device, pipelines, source, &grid, &first)?;
         if lookup.view.is_some() {
             let omni = Lookup { distance: Distance::Omni, view: None, ..*lookup };
             if self.get(&omni).is_none() {
@@ -160,56 +168,66 @@ impl Distances {
             Resource::NearestDistance => Some(Given::Image(&image)),
             Resource::OmniDistance => omni.map(|built| Given::Image(&built.image)),
             Resource::Bundle => find(&buffers, resource).map(Given::Uniform),
-            _ => find(&buffers, resource).or_else(|| self.parts.get(&(lookup.cell, resource))).map(Given::Storage),
+            _ => find(&buffers, resource).or_else(|| self.part(lookup.cell, resource)).map(Given::Storage),
         };
         let job = Job::new(device, lookup.distance.name(), &list, pipelines, &given)?;
         Ok(Pending { lookup: *lookup, job, image, _buffers: buffers.into_iter().map(|(_, buffer)| buffer).collect() })
     }
 
-    /// Takes a finished build over for frames.
+    /// Takes a finished build over for frames; `ms` is what its job took.
     ///
     /// # Errors
     /// What the driver reports.
-    pub fn finish(&mut self, device: &Arc<Device>, pending: Pending, cpu_ms: f64) -> Result<()> {
+    pub fn finish(&mut self, device: &Arc<Device>, pending: Pending, ms: f64) -> Result<()> {
         if let Some(last) = pending.job.last() {
             build::acquire(device, &pending.image, last)?;
         }
-        let ms = if device.info.is_cpu() { cpu_ms } else { pending.job.device_ms()?.unwrap_or(cpu_ms) };
-        self.built.push(Built { lookup: pending.lookup, image: pending.image, ms });
+        let Pending { lookup, image, .. } = pending;
+        let omni = lookup.view.and_then(|_| self.get(&Lookup { distance: Distance::Omni, view: None, ..lookup }));
+        // The omni structure's time has the cells' in it already.
+        let widen: f64 = [Resource::Wide2, Resource::Wide4].iter().filter_map(|r| self.ms(lookup.cell, *r)).sum();
+        let cells: f64 =
+            [Resource::CellRange, Resource::Interesting].iter().filter_map(|r| self.ms(lookup.cell, *r)).sum();
+        let before = omni.map_or(cells, |omni| omni.ms + widen);
+        let view_ms = if lookup.view.is_some() { ms } else { 0.0 };
+        self.built.push(Built { lookup, image, ms: before + ms, view_ms });
         Ok(())
     }
 
-    /// Runs those of `list` whose results are not there, and keeps these; milliseconds.
-    fn run_parts(
+    fn part(&self, cell: u32, resource: Resource) -> Option<&Buffer> {
+        self.parts.get(&(cell, resource)).map(|part| &part.buffer)
+    }
+
+    fn ms(&self, cell: u32, resource: Resource) -> Option<f64> {
+        self.parts.get(&(cell, resource)).map(|part| part.ms)
+    }
+
+    /// Runs those of `list` whose results are not there, and keeps these.
+    fn build_parts(
         &mut self,
         device: &Arc<Device>,
         pipelines: &mut Pipelines,
         source: Source,
         grid: &Grid,
         list: &[Step],
-    ) -> Result<f64> {
+    ) -> Result<()> {
         let cell = grid.cell as u32;
-        let missing: Vec<Step> =
-            list.iter().filter(|step| written(step).any(|r| !self.parts.contains_key(&(cell, r)))).cloned().collect();
-        if missing.is_empty() {
-            return Ok(0.0);
-        }
-        for resource in missing.iter().flat_map(written) {
-            let buffer = storage(device, resource, steps::bytes(grid, 1, resource))?;
-            self.parts.insert((cell, resource), buffer);
-        }
         let support = filled(device, Resource::Support, bytemuck::cast_slice(&source.support.closed()), false)?;
-        let given = |resource: Resource| match resource {
-            Resource::Volume => Some(Given::Image(source.volume)),
-            Resource::Holes => source.holes.map(Given::Image),
-            Resource::Support => Some(Given::Storage(&support)),
-            _ => self.parts.get(&(cell, resource)).map(Given::Storage),
-        };
-        let begin = ProcessTime::now();
-        let mut job = Job::new(device, "interesting", &missing, pipelines, &given)?;
-        job.run(&[])?;
-        let cpu = begin.elapsed().as_secs_f64() * 1e3;
-        Ok(if device.info.is_cpu() { cpu } else { job.device_ms()?.unwrap_or(cpu) })
+        for step in list {
+            let Some(resource) = written(step).find(|r| self.part(cell, *r).is_none()) else { continue };
+            let buffer = storage(device, resource, steps::bytes(grid, 1, resource))?;
+            let given = |wanted: Resource| match wanted {
+                Resource::Volume => Some(Given::Image(source.volume)),
+                Resource::Holes => source.holes.map(Given::Image),
+                Resource::Support => Some(Given::Storage(&support)),
+                _ if wanted == resource => Some(Given::Storage(&buffer)),
+                _ => self.part(cell, wanted).map(Given::Storage),
+            };
+            let mut job = Job::new(device, &step.name, std::slice::from_ref(step), pipelines, &given)?;
+            let ms = timed(device, &mut job)?;
+            self.parts.insert((cell, resource), Part { buffer, ms });
+        }
+        Ok(())
     }
 
     /// Buffers that a build needs meanwhile.
@@ -222,7 +240,7 @@ impl Distances {
     ) -> Result<Vec<(Resource, Buffer)>> {
         let mut made: Vec<(Resource, Buffer)> = Vec::new();
         for resource in list.iter().flat_map(|step| &step.accesses).map(|access| access.resource) {
-            let there = find(&made, resource).is_some() || self.parts.contains_key(&(grid.cell as u32, resource));
+            let there = find(&made, resource).is_some() || self.part(grid.cell as u32, resource).is_some();
             let bytes = steps::bytes(grid, octants, resource);
             if !there && bytes > 0 {
                 made.push((resource, storage(device, resource, bytes)?));
@@ -230,6 +248,14 @@ impl Distances {
         }
         Ok(made)
     }
+}
+
+/// Runs a job; its time as [`Built`] has it.
+fn timed(device: &Device, job: &mut Job) -> Result<f64> {
+    let begin = ProcessTime::now();
+    job.run(&[])?;
+    let cpu = begin.elapsed().as_secs_f64() * 1e3;
+    Ok(if device.info.is_cpu() { cpu } else { job.device_ms()?.unwrap_or(cpu) })
 }
 
 fn written(step: &Step) -> impl Iterator<Item = Resource> + '_ {

@@ -64,6 +64,18 @@ impl Resident {
         self.distances.get(lookup).map(|built| &built.image)
     }
 
+    /// The same with what building them took.
+    pub fn built(&self, lookup: &Lookup) -> Option<&Built> {
+        self.distances.get(lookup)
+    }
+
+    /// Forgets what depends on the transfer function: the next plan's scene may have another one.
+    pub fn forget_transfer(&mut self) {
+        self.buffers.remove(&Resource::Transfer);
+        self.images.remove(&Resource::BlockTable);
+        self.distances.forget_transfer();
+    }
+
     /// Bytes of each resource that the plan reads.
     pub fn bytes(&self, plan: &Plan) -> Vec<(Resource, u64)> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
@@ -108,7 +120,12 @@ impl Resident {
         let value = &host.value;
         let image = distance_image(&self.device, &value.grid, value.octants, lookup.view.is_none())?;
         upload::image(&self.device, &image, &value.distances)?;
-        self.distances.put(Built { lookup: *lookup, image, ms: host.cpu_ms });
+        self.distances.put(Built {
+            lookup: *lookup,
+            image,
+            ms: host.cpu_ms,
+            view_ms: if lookup.view.is_some() { host.cpu_ms } else { 0.0 },
+        });
         Ok(())
     }
 
