@@ -14,8 +14,7 @@ use depthleap::vulkan::{Device, Instance, pick};
 use depthleap::{Error, Result, read};
 
 const RUNS: usize = 5;
-const METHODS: [MethodName; 2] =
-    [MethodName::NnOmni, MethodName::NnDirectional];
+const METHODS: [MethodName; 2] = [MethodName::NnOmni, MethodName::NnDirectional];
 
 fn main() -> Result<()> {
     let cells: Vec<u32> = match std::env::args().find(|a| a.starts_with(|c: char| c.is_ascii_digit())) {

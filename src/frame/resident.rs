@@ -28,7 +28,6 @@ pub struct Resident {
     images: HashMap<Resource, Image>,
     buffers: HashMap<Resource, Buffer>,
     distances: Distances,
-    texels: Option<Texels>,
     pub(super) pipelines: Pipelines,
     /// What building the blocks' ranges took, milliseconds.
     blocks_ms: Option<f64>,
@@ -41,7 +40,6 @@ impl Resident {
             images: HashMap::new(),
             buffers: HashMap::new(),
             distances: Distances::default(),
-            texels: None,
             pipelines: Pipelines::new(device),
             blocks_ms: None,
         }
@@ -149,7 +147,7 @@ impl Resident {
                 self.make(resource, scene)?;
             }
         }
-        let support = Support::of(&self.texels(scene).transfer(&scene.transfer));
+        let support = Support::of(&texels(scene).transfer(&scene.transfer));
         let Some(volume) = self.images.get(&Resource::Volume) else {
             return Err(Error::device(&self.device.info.name, "has no volume to build from", "report this bug"));
         };
@@ -162,10 +160,9 @@ impl Resident {
         let field = &scene.field;
         match resource {
             Resource::Volume => {
-                let format = self.texels(scene).format;
-                check_format(&self.device, format, scene.settings.sampling.filter)?;
-                let bytes = std::mem::take(&mut self.texels_mut(scene).bytes);
-                let image = self.upload_image(resource, field.dims(), format, &bytes)?;
+                let texels = texels(scene);
+                check_format(&self.device, texels.format(), scene.settings.sampling.filter)?;
+                let image = self.upload_image(resource, field.dims(), texels.format(), texels.bytes())?;
                 self.images.insert(resource, image);
             }
             Resource::Holes => {
@@ -174,7 +171,7 @@ impl Resident {
                 self.images.insert(resource, image);
             }
             Resource::Transfer => {
-                let pieces = shared::pieces(&self.texels(scene).transfer(&scene.transfer));
+                let pieces = shared::pieces(&texels(scene).transfer(&scene.transfer));
                 let buffer = Buffer::new(
                     &self.device,
                     BufferInfo {
@@ -188,21 +185,13 @@ impl Resident {
                 self.buffers.insert(resource, buffer);
             }
             Resource::BlockTable => {
-                let table = blocks::visibility_table(&self.texels(scene).transfer(&scene.transfer));
+                let table = blocks::visibility_table(&texels(scene).transfer(&scene.transfer));
                 let image = self.upload_image(resource, [256, 256, 1], vk::Format::R8_UINT, &table)?;
                 self.images.insert(resource, image);
             }
             _ => {}
         }
         Ok(())
-    }
-
-    fn texels(&mut self, scene: &Scene) -> &Texels {
-        self.texels_mut(scene)
-    }
-
-    fn texels_mut(&mut self, scene: &Scene) -> &mut Texels {
-        self.texels.get_or_insert_with(|| Texels::new(&scene.field, scene.settings.volume.texture))
     }
 
     fn upload_image(&self, resource: Resource, extent: [usize; 3], format: vk::Format, bytes: &[u8]) -> Result<Image> {
@@ -220,6 +209,11 @@ impl Resident {
         upload::image(&self.device, &image, bytes)?;
         Ok(image)
     }
+}
+
+/// The volume as the device has it.
+fn texels(scene: &Scene) -> Texels<'_> {
+    Texels::new(&scene.field, scene.settings.volume.texture)
 }
 
 fn check_format(device: &Device, format: vk::Format, filter: Filter) -> Result<()> {

@@ -2,6 +2,7 @@
 
 use cpu_time::ProcessTime;
 
+use super::texture::Texels;
 use crate::pass::resource::Resource;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -29,7 +30,9 @@ impl Structures {
     /// view besides, so that plans of one scene may share it.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
-            let build = || structure::build(&scene.field, &scene.transfer, &lookup);
+            let texels = Texels::new(&scene.field, scene.settings.volume.texture);
+            let transfer = texels.transfer(&scene.transfer);
+            let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
             self.distances.push((lookup, timed(build, |d| d.distances.len() as u64)));
         }
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));

@@ -3,6 +3,8 @@
 //! A cell interpolates its 2x2x2 voxels, so its values fill [min, max] of them and the transfer function is asked
 //! over that whole range, never at sample points.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::blocks;
@@ -13,12 +15,16 @@ use crate::scene::{Field, TransferFunction};
 /// last place of f32 is 2^-23 at most; a few of them, of the three interpolations, fit.
 pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
+/// How far a texture unit's value of a code may be from ours, relative: a unit in the last place or two.
+pub const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
+
 /// The range `[low, high]` of a neighbourhood, widened by what interpolation may add. A constant neighbourhood
-/// interpolates to itself exactly and isn't widened, so that a background of 0 stays invisible where opacity
-/// starts at 0.
+/// interpolates to itself but for the rounding of its code, and a background of 0 stays 0, invisible where opacity
+/// starts there.
 #[inline]
 pub fn widened(low: f32, high: f32) -> [f32; 2] {
-    let by = if low < high { (low.abs().max(high.abs()) * ROUNDING).max(f32::MIN_POSITIVE) } else { 0.0 };
+    let between = (low.abs().max(high.abs()) * ROUNDING).max(f32::MIN_POSITIVE);
+    let by = if low < high { between } else { low.abs() * CODE_ROUNDING };
     [low - by, high + by]
 }
 
@@ -81,30 +87,54 @@ fn at_most(x: f64) -> f32 {
     -at_least(-x)
 }
 
+/// A volume's voxels as a texture holds them: codes of normalised integers, c / (2^bits - 1), or numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values<'a> {
+    Unorm8(Cow<'a, [u8]>),
+    Unorm16(Cow<'a, [u16]>),
+    Float(Cow<'a, [f32]>),
+}
+
 /// One flag a cell of `grid`, x fastest: whether the transfer function is visible over its values, widened by
 /// [`ROUNDING`]. Holes are not interesting; larger cells that have some count as what those were filled with.
-pub fn interesting(field: &Field, transfer: &TransferFunction, grid: &Grid) -> Vec<bool> {
+/// `transfer` is over the texture's values.
+pub fn interesting(field: &Field, values: &Values, transfer: &TransferFunction, grid: &Grid) -> Vec<bool> {
+    let support = Support::of(transfer);
+    match values {
+        Values::Unorm8(codes) => of_values(field, codes, |code| f32::from(code) / 255.0, &support, grid),
+        Values::Unorm16(codes) => of_values(field, codes, |code| f32::from(code) / 65535.0, &support, grid),
+        Values::Float(values) => of_values(field, values, |value| value, &support, grid),
+    }
+}
+
+/// `value` rises with the code.
+fn of_values<T: Copy + PartialOrd + Send + Sync>(
+    field: &Field,
+    codes: &[T],
+    value: impl Fn(T) -> f32 + Copy + Sync,
+    support: &Support,
+    grid: &Grid,
+) -> Vec<bool> {
     if grid.cell > 1 {
-        let support = Support::of(transfer);
-        let (_, ranges) = blocks::ranges(field, grid.cell);
-        let meets = |[low, high]: [f32; 2]| {
-            let [low, high] = widened(low, high);
+        let (_, ranges) = blocks::ranges_of(field.dims(), codes, grid.cell);
+        let meets = |[low, high]: [T; 2]| {
+            let [low, high] = widened(value(low), value(high));
             support.meets(low, high)
         };
         return ranges.into_par_iter().map(meets).collect();
     }
     let [nx, ny, nz] = field.dims();
     let [cx, cy, cz] = field.cells();
-    let support = Support::of(transfer);
     let mut flags = vec![false; cx * cy * cz];
+    let Some(&any) = codes.first() else { return flags };
     flags.par_chunks_mut(cx * cy).enumerate().for_each(|(z, slab)| {
-        let mut low = vec![0.0; nx];
-        let mut high = vec![0.0; nx];
-        let row = |y: usize, z: usize| &field.values[(z * ny + y) * nx..][..nx];
+        let mut low = vec![any; nx];
+        let mut high = vec![any; nx];
+        let row = |y: usize, z: usize| &codes[(z * ny + y) * nx..][..nx];
         for (y, flags) in slab.chunks_exact_mut(cx).enumerate() {
             let (up, behind) = ((y + 1).min(ny - 1), (z + 1).min(nz - 1));
             extremes([row(y, z), row(up, z), row(y, behind), row(up, behind)], &mut low, &mut high);
-            row_flags(&support, &low, &high, flags);
+            row_flags(support, &low, &high, value, flags);
         }
     });
     if let Some(holes) = &field.holes {
@@ -113,11 +143,17 @@ pub fn interesting(field: &Field, transfer: &TransferFunction, grid: &Grid) -> V
     flags
 }
 
+/// The lesser and the greater. Plain comparisons: values are finite, and what `f32::min` does about NaN would cost time.
+fn least<T: PartialOrd>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
+fn most<T: PartialOrd>(a: T, b: T) -> T {
+    if a > b { a } else { b }
+}
+
 /// Minimum and maximum of four rows, place by place.
-fn extremes(rows: [&[f32]; 4], low: &mut [f32], high: &mut [f32]) {
-    // Plain comparisons: values are finite, and what `f32::min` does about NaN would cost time.
-    let least = |a: f32, b: f32| if a < b { a } else { b };
-    let most = |a: f32, b: f32| if a > b { a } else { b };
+fn extremes<T: Copy + PartialOrd>(rows: [&[T]; 4], low: &mut [T], high: &mut [T]) {
     let n = low.len();
     let [a, b, c, d] = rows.map(|row| &row[..n]);
     let high = &mut high[..n];
@@ -128,13 +164,17 @@ fn extremes(rows: [&[f32]; 4], low: &mut [f32], high: &mut [f32]) {
 }
 
 /// Flags of a row of cells from the extremes of its columns of four voxels.
-fn row_flags(support: &Support, low: &[f32], high: &[f32], flags: &mut [bool]) {
+fn row_flags<T: Copy + PartialOrd>(
+    support: &Support,
+    low: &[T],
+    high: &[T],
+    value: impl Fn(T) -> f32,
+    flags: &mut [bool],
+) {
     let next = (low.len() - 1).min(1);
     let (low_next, high_next) = (&low[next..], &high[next..]);
     let cells = flags.iter_mut().zip(low.iter().zip(low_next).zip(high.iter().zip(high_next)));
-    let range = |((l0, l1), (h0, h1)): ((&f32, &f32), (&f32, &f32))| {
-        widened(if l0 < l1 { *l0 } else { *l1 }, if h0 > h1 { *h0 } else { *h1 })
-    };
+    let range = |((l0, l1), (h0, h1)): ((&T, &T), (&T, &T))| widened(value(least(*l0, *l1)), value(most(*h0, *h1)));
     if let [[from, to]] = support.0[..] {
         // The usual case, without branches.
         cells.for_each(|(flag, columns)| {

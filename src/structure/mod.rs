@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use crate::scene::settings::Distance;
 use crate::scene::{Field, Scene, TransferFunction};
+use cells::Values;
 use grid::{DistanceField, Grid};
 
 /// The distances a frame looks up: two frames with equal ones share a structure, as long as volume and transfer
@@ -45,9 +46,10 @@ impl Lookup {
     }
 }
 
-/// The structure of an `nn-*` method on the host: the twin of what compute shaders build.
-pub fn build(field: &Field, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
+/// The structure of an `nn-*` method on the host: the twin of what compute shaders build. `values` are the volume's as
+/// a texture holds them, and `transfer` is over these.
+pub fn build(field: &Field, values: &Values, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
     let grid = Grid::new(field, lookup.cell);
-    let interesting = cells::interesting(field, transfer, &grid);
+    let interesting = cells::interesting(field, values, transfer, &grid);
     distance::omni(&grid, &interesting)
 }
