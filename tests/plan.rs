@@ -105,7 +105,7 @@ fn read_before_its_write_is_seen() {
     for (name, group, left) in [
         ("nn-omni_bounds_fragdepth", "clear", "near_neighbor #0 reads accumulated"),
         ("rc", "entry", "direction reads entry"),
-        ("rc-block", "block_range", "block_skip #1 reads block_range"),
+        ("rc-block", "cell_range", "block_skip #1 reads cell_range"),
         ("nn-omni_ztest_copy", "mark_copy #0", "main_pass #0 reads stored"),
     ] {
         let mut steps = cases().into_iter().find(|case| case.name == name).unwrap().plan.steps;

@@ -46,8 +46,8 @@ fn main_pass_binds_what_it_declares() {
 fn compute_shader_says_its_work_group() {
     let shader = module("structure/cell_range.comp");
     assert_eq!(shader.stage, vk::ShaderStageFlags::COMPUTE);
-    assert_eq!(shader.execution_modes, ["LocalSize 4 4 4"]);
-    let expected = [("volume", 3, TEXTURE), ("block_range", 8, vk::DescriptorType::STORAGE_BUFFER)];
+    assert_eq!(shader.execution_modes, ["LocalSize 64 1 1"]);
+    let expected = [("volume", 3, TEXTURE), ("cell_range", 8, vk::DescriptorType::STORAGE_BUFFER)];
     assert_eq!(bindings(&shader), expected);
 }
 

@@ -10,7 +10,7 @@ use depthleap::pass::{Work, main_pass};
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{Frame, Piece, Step, pieces};
+use depthleap::shared::{Frame, Piece, Slice, Step, pieces};
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
 
@@ -64,6 +64,10 @@ fn frame() -> Layout {
 
 fn step() -> Layout {
     layout!(Step { bound, pass })
+}
+
+fn slice() -> Layout {
+    layout!(Slice { first, end, cells_x, cells_y, cells_z, cell, inner, outer, stride, weight, reach, octant })
 }
 
 fn piece() -> Layout {
@@ -202,13 +206,18 @@ fn step_is_alike_in_rust_and_in_every_shader() {
 }
 
 #[test]
+fn slice_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("Slice", &slice(), "structure/distance_scan.comp:octant");
+}
+
+#[test]
 fn piece_is_alike_in_rust_and_in_every_shader() {
     assert_alike("Piece", &piece(), "main_pass.frag:discard+holes");
 }
 
 #[test]
 fn every_alteration_of_a_layout_is_seen() {
-    for (name, rust) in [("Frame", frame()), ("Step", step()), ("Piece", piece())] {
+    for (name, rust) in [("Frame", frame()), ("Step", step()), ("Slice", slice()), ("Piece", piece())] {
         let shader = in_shaders(name).swap_remove(0).1;
         let altered = |alter: &dyn Fn(&mut Layout)| {
             let mut copy = rust.clone();

@@ -84,7 +84,7 @@ fn new_image(
     usage: vk::ImageUsageFlags,
 ) -> depthleap::Result<Image> {
     let volume = extent[2] > 1;
-    Image::new(device, ImageInfo { name: "wanted".to_owned(), extent, format, usage, volume })
+    Image::new(device, ImageInfo { name: "wanted".to_owned(), extent, format, usage, volume, shared: false })
 }
 
 /// Copied, and sampled, since an image that only is copied can have no view.

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use depthleap::glsl;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::volume::{Volume, Voxels};
+use depthleap::shared::Slice;
 use depthleap::structure::blocks;
+use depthleap::structure::grid::Grid;
 use depthleap::vulkan::{
     Buffer, Commands, ComputePipeline, DescriptorSet, Device, Image, ImageInfo, Place, Queue, Recorded, Region,
     Resource, Sampler, Scope, Shader, vk,
@@ -124,7 +126,7 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
     with_both(|device| {
         let (graphics, compute) = (&device.graphics, &device.compute);
         let field = field([19, 17, 9]);
-        let (_, expected) = blocks::ranges(&field);
+        let (_, expected) = blocks::ranges(&field, 8);
         let volume = Image::new(
             device,
             ImageInfo {
@@ -138,17 +140,17 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
         )
         .unwrap();
         let bytes = expected.len() as u64 * 8;
-        let ranges = buffer(device, "block_range", bytes, Place::Device);
+        let ranges = buffer(device, "cell_range", bytes, Place::Device);
         let result = buffer(device, "result", bytes, Place::Readback);
         let name = "structure/cell_range.comp";
         let build = Shader::new(name, &glsl::module(name).unwrap()).unwrap();
-        let build = ComputePipeline::new(device, "block_range", &build, &[]).unwrap();
+        let build = ComputePipeline::new(device, "cell_range", &build, &[]).unwrap();
         let sampler = Sampler::new(device, "nearest", false).unwrap();
         let (empty, to) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         let resources =
-            [("volume", Resource::Sampled(&volume, &sampler, read)), ("block_range", Resource::Storage(&ranges))];
-        let set = DescriptorSet::new(device, "block_range", &build.layout, &resources).unwrap();
+            [("volume", Resource::Sampled(&volume, &sampler, read)), ("cell_range", Resource::Storage(&ranges))];
+        let set = DescriptorSet::new(device, "cell_range", &build.layout, &resources).unwrap();
 
         let texels = uploaded(device, "texels", bytemuck::cast_slice(&field.values));
         let mut give = Commands::begin(device, graphics, "give").unwrap();
@@ -160,6 +162,10 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
         let mut work = Commands::begin(device, compute, "build").unwrap();
         work.image_acquire(&volume, COMPUTE, to, read, graphics);
         work.bind_compute(&build, &set);
+        let grid = Grid::new(&field, 8);
+        let [cells_x, cells_y, cells_z] = grid.cells.map(|n| n as u32);
+        let all = Slice { end: grid.count() as u32, cells_x, cells_y, cells_z, cell: 8, ..Slice::default() };
+        work.push(&build.layout, bytemuck::bytes_of(&all));
         work.dispatch([1; 3]);
         work.buffer_release(&ranges, COMPUTE, graphics);
         let built = compute.submit(&work.finish().unwrap(), &[&given]).unwrap();
