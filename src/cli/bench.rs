@@ -30,6 +30,7 @@ use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
   depthleap bench -o out
   depthleap bench fuel.nrrd aneurism.nrrd --tf ramp -o out
   depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out
+  depthleap bench engine.nrrd --method nn-omni,nn-optimal,nn-cone --orbit 72 -o out
   depthleap render --from out/results.json#3 -o again.png")]
 pub struct Bench {
     /// Scene files (.toml), volume files or builtin:NAME:SIZE
@@ -50,6 +51,9 @@ pub struct Bench {
     /// Frames run before any is timed
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     warmups: usize,
+    /// Go around each volume in N frames as well, while structures for coming views are built beside the frames
+    #[arg(long, value_name = "N")]
+    orbit: Option<usize>,
     /// Leave out the f64 reference: no error and no lower bound
     #[arg(long)]
     no_reference: bool,
@@ -97,7 +101,11 @@ impl Bench {
         for settings in &scenes {
             let methods = self.variants(opened.as_ref(), settings);
             let mut runner = Runner::new(opened.as_ref(), read::scene(settings)?, scene_name(settings));
-            measured.extend(runner.measure(&methods, effort, &|what| progress.say(what))?);
+            let mut here = runner.measure(&methods, effort, &|what| progress.say(what))?;
+            if let Some(count) = self.orbit {
+                runner.orbits(&mut here, count, &|what| progress.say(what))?;
+            }
+            measured.extend(here);
         }
         drop(progress);
         opened.map_or(Ok(()), |checked| self.device.close(checked))?;
@@ -164,8 +172,11 @@ impl Bench {
 
 /// A run whose form passed the self-check and whose picture skipping changed nevertheless.
 fn broken_law(one: &Measured) -> Option<String> {
-    let differing = one.differing.filter(|n| one.trusted && *n > 0)?;
-    Some(format!("{}, {}: {differing} pixels", one.run.scene, one.run.method))
+    let differs = |count: Option<u64>, what: &str| {
+        let count = count.filter(|n| one.trusted && *n > 0)?;
+        Some(format!("{}, {}: {count} {what}", one.run.scene, one.run.method))
+    };
+    differs(one.differing, "pixels").or_else(|| differs(one.differing_frames, "frames of the orbit"))
 }
 
 fn available(checked: Option<&Checked>, form: Form) -> bool {

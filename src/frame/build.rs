@@ -124,7 +124,7 @@ impl Job {
     /// # Errors
     /// What the driver reports.
     pub fn advance(&mut self, count: usize, after: &[&Submission]) -> Result<()> {
-        let end = self.slices.len().min(self.next + count);
+        let end = self.slices.len().min(self.next.saturating_add(count));
         for slice in &self.slices[self.next..end] {
             let waits = if self.last.is_none() { after } else { &[] };
             self.last = Some(self.device.compute.submit(slice, waits)?);
@@ -147,7 +147,7 @@ impl Job {
     /// # Errors
     /// What the driver reports.
     pub fn run(&mut self, after: &[&Submission]) -> Result<()> {
-        self.advance(usize::MAX - self.next, after)?;
+        self.advance(usize::MAX, after)?;
         self.last.as_ref().map_or(Ok(()), Submission::wait)
     }
 

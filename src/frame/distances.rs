@@ -87,9 +87,9 @@ impl Distances {
         self.built.clear();
     }
 
-    /// Forgets what was made for a view.
-    pub fn forget_view(&mut self) {
-        self.built.retain(|built| built.lookup.view.is_none());
+    /// Forgets what was made for other views than these.
+    pub fn keep_views(&mut self, kept: &[Lookup]) {
+        self.built.retain(|built| built.lookup.view.is_none() || kept.contains(&built.lookup));
     }
 
     /// Builds the ranges of cells of that side, where they are not there; milliseconds.

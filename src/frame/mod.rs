@@ -1,5 +1,6 @@
 //! Runs plans: on a device ([`gpu`]) or in f64 through the twins ([`cpu`]).
 
+pub mod background;
 pub mod build;
 pub mod compile;
 pub mod cpu;
@@ -13,6 +14,7 @@ pub mod structures;
 pub mod texture;
 mod upload;
 
+pub use background::{Background, Served};
 pub use cpu::{Counts, CpuFrame};
 pub use gpu::{EarlyEnd, FrameRun, GpuFrame, Measure};
 pub use resident::Resident;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::distances::{Built, Distances, Source, distance_image};
+use super::distances::{Built, Distances, Pending, Source, distance_image};
 use super::pipelines::Pipelines;
 use super::structures::{Built as HostBuilt, Structures};
 use super::texture::Texels;
@@ -72,6 +72,29 @@ impl Resident {
         self.buffers.remove(&Resource::Transfer);
         self.images.remove(&Resource::BlockTable);
         self.distances.forget_transfer();
+    }
+
+    /// Begins to build distances on the device; see [`super::Background`].
+    ///
+    /// # Errors
+    /// As [`Resident::prepare`].
+    pub fn begin(&mut self, scene: &Scene, lookup: &Lookup) -> Result<Pending> {
+        self.with_source(scene, |distances, device, pipelines, source| {
+            distances.begin(device, pipelines, source, lookup)
+        })
+    }
+
+    /// Takes over what was begun and has ended; `ms` is what it took.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn finish(&mut self, pending: Pending, ms: f64) -> Result<()> {
+        self.distances.finish(&self.device, pending, ms)
+    }
+
+    /// Forgets distances that were made for other views than these.
+    pub fn keep_views(&mut self, kept: &[Lookup]) {
+        self.distances.keep_views(kept);
     }
 
     /// Bytes of each resource that the plan reads.

@@ -12,6 +12,7 @@ pub mod csv;
 pub mod error;
 pub mod limits;
 pub mod number;
+pub mod orbit;
 pub mod picture;
 pub mod plot;
 pub mod record;

@@ -29,7 +29,7 @@
 //! | `frame_ms` | number or null, ms | wall time of a frame |
 //! | `cpu_ms` | number or null, ms | CPU time of the process for a frame, all threads together |
 //! | `record_ms` | number or null, ms | CPU time for recording and submitting a frame |
-//! | `build_ms` | number or null, ms | CPU time of the process for building the structures; null where the method has none |
+//! | `build_ms` | number or null, ms | building the structures, from the volume on: CPU time of the process where the host or a CPU device builds, else device time; null where the method has none |
 //! | `bytes` | integer, bytes | size of the structures |
 //! | `memory` | map text to integer, bytes | size of every resource of the frame by its name |
 //! | `ideal` | {`main`} or null | main fragments no skipping can go below: those whose segment holds a contributing sample |
@@ -39,6 +39,7 @@
 //! | `left_out` | array of {`what`, `why`} | what the scene did not need |
 //! | `plan` | array of text | the frame's steps, one a line |
 //! | `notes` | array of text | what a reader of the numbers should know |
+//! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
@@ -51,6 +52,7 @@ use std::collections::BTreeMap;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::orbit::OrbitFrame;
 use super::timing::{HostTimes, Timings};
 use crate::error::{Error, Result};
 use crate::scene::Settings;
@@ -89,6 +91,9 @@ pub struct Run {
     pub left_out: Vec<LeftOut>,
     pub plan: Vec<String>,
     pub notes: Vec<String>,
+    /// Frames of a camera that goes around the volume.
+    #[serde(default)]
+    pub orbit: Option<Vec<OrbitFrame>>,
     pub settings: Settings,
 }
 

@@ -52,16 +52,18 @@ pub struct Measured {
     pub trusted: bool,
     /// Pixels whose bits are not those of the first run that ends rays early too; none where there is no such run.
     pub differing: Option<u64>,
+    /// Frames of an orbit whose picture is not that of the first such run.
+    pub differing_frames: Option<u64>,
 }
 
 /// One scene on one device; what its methods share is made once.
 pub struct Runner<'a> {
     /// None for the method `cpu` alone, which needs no device.
-    checked: Option<&'a Checked>,
-    scene: Scene,
-    name: String,
+    pub(super) checked: Option<&'a Checked>,
+    pub(super) scene: Scene,
+    pub(super) name: String,
     structures: Structures,
-    resident: Option<Resident>,
+    pub(super) resident: Option<Resident>,
     /// The twin's frame, with and without early termination.
     references: BTreeMap<bool, CpuFrame>,
 }
@@ -229,11 +231,12 @@ impl<'a> Runner<'a> {
                 .collect(),
             plan: entry.plan.lines(),
             notes: self.notes(&entry),
+            orbit: None,
             settings: entry.scene.settings.clone(),
         };
         let verdict = self.checked.zip(form).and_then(|(c, form)| c.check.forms.get(&form));
         let trusted = !matches!(verdict, Some(Verdict::Wrong(_)));
-        Ok(Measured { run, picture: entry.picture, reference, trusted, differing: None })
+        Ok(Measured { run, picture: entry.picture, reference, trusted, differing: None, differing_frames: None })
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
@@ -310,7 +313,7 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
 
 /// Whether the host builds the distances: where it is asked to, where the device has no room to, and on a device that is
 /// a CPU the transforms, at which the host is the faster (`cargo bench --bench structure`).
-fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
+pub(super) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
     let Some(lookup) = &plan.distance else { return false };
     match scene.settings.method.build {
         Builder::Host => true,
@@ -320,7 +323,7 @@ fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
     }
 }
 
-fn no_device() -> Error {
+pub(super) fn no_device() -> Error {
     Error::device("method", "needs a device, and none is open", "open one, or use --method cpu")
 }
 

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::comparison::{COLUMNS, Cell, Grid, Group, groups, note_mark};
+use super::comparison::{COLUMNS, Cell, Grid, Group, groups, label, note_mark};
+use super::orbit::Summary;
 use super::record::Run;
 
 /// One table a scene, with its footnotes; empty where there are no runs.
@@ -45,7 +46,17 @@ fn group_table(group: &Group) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(out, "({}) {note}", note_mark(i));
     }
+    let orbits: Vec<String> = group.runs.iter().filter_map(|(_, run)| orbit_line(run)).collect();
+    if !orbits.is_empty() {
+        let _ = writeln!(out, "\nOrbit, medians of a frame\n{}", orbits.join("\n"));
+    }
     out
+}
+
+/// What an orbit was like, in a line.
+fn orbit_line(run: &Run) -> Option<String> {
+    let summary = Summary::of(run.orbit.as_deref()?)?;
+    Some(format!("{:<21} {}", label(run), summary.words()))
 }
 
 /// ` (a)`, or nothing.

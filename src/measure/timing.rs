@@ -137,7 +137,7 @@ pub struct HostTimes {
     pub cpu: Option<Timing>,
     /// CPU time for recording and submitting a frame.
     pub record: Option<Timing>,
-    /// CPU time of the process for building the structures the method skips with, on the CPU or by the device.
+    /// Building the structures the method skips with: CPU time of the process, device time where a GPU builds.
     pub build: Option<Timing>,
 }
 

@@ -1,6 +1,6 @@
 //! A perspective camera anywhere, inside the volume too.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::error::{Error, Result};
 use crate::math::ray::ViewRays;
@@ -34,6 +34,14 @@ impl Camera {
         let (a, e) = (azimuth.to_radians(), elevation.to_radians());
         let eye = distance * DVec3::new(a.sin() * e.cos(), e.sin(), a.cos() * e.cos());
         Self { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y }
+    }
+
+    /// The same, turned about the axis `up` through the target by so many degrees.
+    pub fn turned(self, degrees: f64) -> Self {
+        let axis = self.up.normalize_or_zero();
+        let turn =
+            if axis == DVec3::ZERO { DQuat::IDENTITY } else { DQuat::from_axis_angle(axis, degrees.to_radians()) };
+        Self { eye: self.target + turn * (self.eye - self.target), ..self }
     }
 
     /// # Errors

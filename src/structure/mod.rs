@@ -32,6 +32,12 @@ pub struct LookupView {
     pub half_angle: Option<f64>,
 }
 
+impl LookupView {
+    pub fn serves(&self, _grid: &Grid, _field: &Field, eye: DVec3) -> bool {
+        self.eye == eye
+    }
+}
+
 impl Lookup {
     /// What the scene's method looks up; none where it does not look ahead.
     pub fn of(scene: &Scene) -> Option<Self> {

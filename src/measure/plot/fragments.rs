@@ -9,6 +9,7 @@ use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color
 use crate::error::Result;
 use crate::measure::comparison::{Group, forms, label};
 use crate::measure::number::thousands;
+use crate::measure::orbit::OrbitFrame;
 use crate::measure::record::Run;
 
 const HEIGHT: u32 = 640;
@@ -27,7 +28,29 @@ struct Series<'a> {
 /// # Errors
 /// When the drawing fails, which only a fault of this program explains.
 pub fn fragments_svg(group: &Group) -> Result<Option<String>> {
-    let series = series(group);
+    panels(&series(group), "pass")
+}
+
+/// The same for the frames of an orbit. `None` where no run has one.
+///
+/// # Errors
+/// As [`fragments_svg`].
+pub fn orbit_svg(group: &Group) -> Result<Option<String>> {
+    let counts = |run: &Run| {
+        let frames = run.orbit.as_deref()?;
+        let of = |get: fn(&OrbitFrame) -> u64| frames.iter().map(get).collect::<Vec<u64>>();
+        Some((label(run), [of(|frame| frame.main), of(|frame| frame.intermediate)]))
+    };
+    let counts: Vec<(String, [Vec<u64>; 2])> = group.runs.iter().filter_map(|(_, run)| counts(run)).collect();
+    let series: Vec<Series> = counts
+        .iter()
+        .map(|(label, [main, intermediate])| Series { label: label.clone(), counts: [main, intermediate] })
+        .collect();
+    panels(&series, "frame")
+}
+
+/// `of` is what stands along the axis.
+fn panels(series: &[Series], of: &str) -> Result<Option<String>> {
     if series.iter().all(|s| s.counts.iter().all(|c| c.is_empty())) {
         return Ok(None);
     }
@@ -35,9 +58,9 @@ pub fn fragments_svg(group: &Group) -> Result<Option<String>> {
     svg(HEIGHT.max(legend_height), |area| {
         let (panels, key) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
         let (upper, lower) = panels.split_vertically(area.dim_in_pixel().1 / 2);
-        panel(&upper, "Main passes", &series, 0)?;
-        panel(&lower, "Intermediate passes", &series, 1)?;
-        legend(&key, &series)
+        panel(&upper, "Main passes", series, 0, of)?;
+        panel(&lower, "Intermediate passes", series, 1, of)?;
+        legend(&key, series)
     })
     .map(Some)
 }
@@ -83,7 +106,7 @@ fn decade_label(decade: f64) -> String {
     }
 }
 
-fn panel<'a>(area: &Area<'a>, title: &str, series: &[Series], kind: usize) -> Drawn<'a> {
+fn panel<'a>(area: &Area<'a>, title: &str, series: &[Series], kind: usize, of: &str) -> Drawn<'a> {
     let counts = || series.iter().flat_map(|s| s.counts[kind].iter().copied());
     let passes = series.iter().map(|s| s.counts[kind].len()).max().unwrap_or(0);
     let bottom = counts().min().map_or(0.0, |least| decade(least).floor());
@@ -109,8 +132,8 @@ fn panel<'a>(area: &Area<'a>, title: &str, series: &[Series], kind: usize) -> Dr
         .label_style(ink(FONT_SIZE))
         .x_label_formatter(&|pass| format!("{pass:.0}"))
         .y_label_formatter(&|d| decade_label(*d))
-        .x_desc("pass")
-        .y_desc("fragments in the pass")
+        .x_desc(of)
+        .y_desc(format!("fragments in the {of}"))
         .axis_desc_style(ink(FONT_SIZE))
         .draw()?;
     let points = |s: &Series| -> Vec<(f64, f64)> {

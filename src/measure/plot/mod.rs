@@ -11,7 +11,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-pub use fragments::fragments_svg;
+pub use fragments::{fragments_svg, orbit_svg};
 pub use times::times_svg;
 
 use crate::error::{Error, Result};

@@ -5,7 +5,8 @@ use super::html::{Html, escape};
 use crate::error::{Error, Result};
 use crate::measure::comparison::{Grid, Group, forms, label};
 use crate::measure::number::bytes;
-use crate::measure::plot::{fragments_svg, times_svg};
+use crate::measure::orbit::{OrbitFrame, Summary};
+use crate::measure::plot::{fragments_svg, orbit_svg, times_svg};
 use crate::measure::record::Run;
 
 /// # Errors
@@ -33,11 +34,43 @@ pub fn section(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()
              which the black tick marks.",
         );
     }
+    if let Some(svg) = orbit_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Fragments of each frame of an orbit, {}", group.first().scene),
+            "Fragments in each frame while the camera goes around the volume. Structures made for a view are built \
+             beside the frames, which read omni until one is there that serves their view.",
+        );
+        orbits(page, group);
+    }
     for (_, run) in &group.runs {
         page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
     }
     page.raw("</section>\n");
     Ok(())
+}
+
+/// The orbit by each method in a line, and frame by frame.
+fn orbits(page: &mut Html, group: &Group) {
+    for (_, run) in &group.runs {
+        let Some(frames) = run.orbit.as_deref() else { continue };
+        let Some(summary) = Summary::of(frames) else { continue };
+        page.tag("p", &format!("{}: {}.", name(run), summary.words()));
+        let line = |frame: &OrbitFrame| {
+            let structure = frame.structure.as_deref().unwrap_or("-");
+            let age = frame.age.map_or_else(|| "-".to_owned(), |age| age.to_string());
+            format!(
+                "{:>5} {:>8.2} {structure:<12} {age:>4} {:>12} {:>12} {:>10.2} {:>10.2} {:>10.2}",
+                frame.frame, frame.turned, frame.main, frame.intermediate, frame.frame_ms, frame.cpu_ms, frame.build_ms
+            )
+        };
+        let head = format!(
+            "{:>5} {:>8} {:<12} {:>4} {:>12} {:>12} {:>10} {:>10} {:>10}",
+            "frame", "degrees", "structure", "age", "main", "intermediate", "frame ms", "CPU ms", "builds ms"
+        );
+        let lines: Vec<String> = std::iter::once(head).chain(frames.iter().map(line)).collect();
+        page.folded(&format!("{}: frames of the orbit", name(run)), |page| page.tag("pre", &lines.join("\n")));
+    }
 }
 
 fn name(run: &Run) -> String {

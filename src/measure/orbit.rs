@@ -1,0 +1,192 @@
+//! Frames of a camera that goes around the volume: which structure each of them read, and what it saved.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use serde::{Deserialize, Serialize};
+
+use super::number::{milliseconds, thousands};
+use super::runner::{Measured, Runner, builds_on_host, no_device};
+use super::statistics::Statistics;
+use crate::error::Result;
+use crate::frame::{Background, GpuFrame, Measure, Structures};
+use crate::plan;
+use crate::scene::Scene;
+use crate::scene::settings::{MethodName, MethodSettings};
+
+/// One frame of an orbit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OrbitFrame {
+    pub frame: usize,
+    /// How far the camera has turned about its `up` axis through its target, degrees.
+    pub turned: f64,
+    /// The structure it read: `omni`, `directional`, `optimal`, `cone`; none for methods that read none.
+    pub structure: Option<String>,
+    /// Frames since the one whose view the structure was made for; none where it is for every view.
+    pub age: Option<i64>,
+    /// Fragments.
+    pub main: u64,
+    pub intermediate: u64,
+    /// Wall and CPU time of the frame, milliseconds.
+    pub frame_ms: f64,
+    pub cpu_ms: f64,
+    /// Wall time of slices of a build between this frame and the next, milliseconds; 0 with a queue of its own.
+    pub build_ms: f64,
+}
+
+/// An orbit by one method.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    pub frames: Vec<OrbitFrame>,
+    /// What each frame's picture hashes to: equal pictures have equal ones.
+    pub pictures: Vec<u64>,
+}
+
+impl Runner<'_> {
+    /// Goes once around the volume in `count` frames by each method of `measured`, which gets the frames.
+    ///
+    /// # Errors
+    /// As [`Runner::measure`].
+    pub fn orbits(&mut self, measured: &mut [Measured], count: usize, progress: &dyn Fn(&str)) -> Result<()> {
+        let mut rule: Option<Vec<u64>> = None;
+        for one in measured.iter_mut().filter(|one| one.run.method != MethodName::Cpu.name()) {
+            let orbit = self.orbit(&one.run.settings.method, count, progress)?;
+            one.run.orbit = Some(orbit.frames);
+            // As in the law of skipping: methods that end no ray early have pictures of their own.
+            if one.run.cull.is_none() {
+                continue;
+            }
+            match &rule {
+                None => rule = Some(orbit.pictures),
+                Some(rule) => {
+                    let differing = rule.iter().zip(&orbit.pictures).filter(|(a, b)| a != b).count() as u64;
+                    one.differing_frames = Some(differing);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes once around the volume in `count` frames.
+    ///
+    /// # Errors
+    /// As [`Runner::measure`].
+    pub fn orbit(&mut self, method: &MethodSettings, count: usize, progress: &dyn Fn(&str)) -> Result<Orbit> {
+        let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
+        let mut base = self.scene.clone();
+        base.settings.method = method.clone();
+        let turned = |frame: usize| 360.0 * frame as f64 / count as f64;
+        let scene_of = |frame: usize| -> Option<Scene> {
+            let mut scene = base.clone();
+            scene.camera = scene.camera.turned(turned(frame));
+            scene.settings.camera.eye = scene.camera.eye.to_array();
+            (frame < count).then_some(scene)
+        };
+        let form = plan::form(&base, checked.check.automatic(method.name))?;
+        let mut background = Background::new(&checked.device);
+        let mut orbit = Orbit { frames: Vec::new(), pictures: Vec::new() };
+        for frame in 0..count {
+            let Some(scene) = scene_of(frame) else { break };
+            progress(&format!("{}: {}, frame {} of {count}", self.name, method.name.name(), frame + 1));
+            let served = background.serve(frame, &scene, resident)?;
+            let mut plan = plan::plan(&scene, form)?;
+            plan.distance = served.map(|served| served.lookup).filter(|_| plan.distance.is_some());
+            let mut structures = Structures::default();
+            if builds_on_host(&checked.device, &scene, &plan)
+                && plan.distance.is_some_and(|lookup| resident.distance(&lookup).is_none())
+            {
+                structures.prepare(&scene, &plan);
+            }
+            resident.prepare(&scene, &plan, &structures)?;
+            let mut gpu = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
+            let counts = gpu.run(Measure::Counts { statistics: false })?.fragments.unwrap_or_default();
+            let picture = gpu.picture()?;
+            let run = gpu.run(Measure::Nothing)?;
+            let build_ms = background.go_on(frame, resident, &scene_of)?;
+            orbit.pictures.push(hash(&picture));
+            orbit.frames.push(OrbitFrame {
+                frame,
+                turned: turned(frame),
+                structure: served.map(|served| served.lookup.distance.name().to_owned()),
+                age: served.and_then(|served| served.age),
+                main: counts.main.iter().sum(),
+                intermediate: counts.intermediate.iter().sum(),
+                frame_ms: run.frame_ms,
+                cpu_ms: run.cpu_ms,
+                build_ms,
+            });
+        }
+        resident.keep_views(&[]);
+        Ok(orbit)
+    }
+}
+
+fn hash(picture: &[[f32; 4]]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    picture.iter().for_each(|pixel| pixel.map(f32::to_bits).hash(&mut hasher));
+    hasher.finish()
+}
+
+/// An orbit in a few numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    pub frames: usize,
+    /// Frames by the structure they read, in the order of their first use.
+    pub structures: Vec<(String, usize)>,
+    /// Lowest and highest age of structures that were made for a view.
+    pub ages: Option<[i64; 2]>,
+    /// Medians of a frame.
+    pub main: u64,
+    pub intermediate: u64,
+    pub frame: Statistics,
+    pub cpu: Statistics,
+    pub build: Statistics,
+}
+
+impl Summary {
+    /// None where there are no frames.
+    pub fn of(frames: &[OrbitFrame]) -> Option<Self> {
+        let mut structures: Vec<(String, usize)> = Vec::new();
+        for name in frames.iter().filter_map(|frame| frame.structure.as_ref()) {
+            match structures.iter_mut().find(|(known, _)| known == name) {
+                Some((_, count)) => *count += 1,
+                None => structures.push((name.clone(), 1)),
+            }
+        }
+        let ages = frames.iter().filter_map(|frame| frame.age);
+        let times = |get: fn(&OrbitFrame) -> f64| Statistics::of(&frames.iter().map(get).collect::<Vec<_>>());
+        let median = |get: fn(&OrbitFrame) -> u64| {
+            let mut counts: Vec<u64> = frames.iter().map(get).collect();
+            counts.sort_unstable();
+            counts.get(counts.len() / 2).copied()
+        };
+        Some(Self {
+            frames: frames.len(),
+            structures,
+            ages: ages.clone().min().zip(ages.max()).map(|(low, high)| [low, high]),
+            main: median(|frame| frame.main)?,
+            intermediate: median(|frame| frame.intermediate)?,
+            frame: times(|frame| frame.frame_ms)?,
+            cpu: times(|frame| frame.cpu_ms)?,
+            build: times(|frame| frame.build_ms)?,
+        })
+    }
+
+    /// In a line.
+    pub fn words(&self) -> String {
+        let read: Vec<String> = self.structures.iter().map(|(name, count)| format!("{count} by {name}")).collect();
+        let read = if read.is_empty() {
+            format!("{} frames", self.frames)
+        } else {
+            format!("{} frames, {}", self.frames, read.join(", "))
+        };
+        let ages = self.ages.map(|[low, high]| format!(" (made {low} to {high} frames before)")).unwrap_or_default();
+        format!(
+            "{read}{ages}; main {}, intermediate {}; frame {} ms, CPU {} ms, slices of builds between frames {} ms",
+            thousands(self.main),
+            thousands(self.intermediate),
+            milliseconds(self.frame.median),
+            milliseconds(self.cpu.median),
+            milliseconds(self.build.median),
+        )
+    }
+}
