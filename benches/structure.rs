@@ -7,8 +7,10 @@ use cpu_time::ProcessTime;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, TransferFunction, Volume};
-use depthleap::structure::cells::interesting;
-use depthleap::structure::distance::{cell_sides, omni};
+use depthleap::structure::cells::{Values, interesting};
+use depthleap::structure::distance::omni;
+use depthleap::structure::grid::Grid;
+use depthleap::structure::octants::directional;
 
 const SIZE: usize = 256;
 const RUNS: usize = 9;
@@ -60,18 +62,24 @@ fn median(mut run: impl FnMut()) -> Duration {
 
 fn main() {
     let field = vessels();
-    let sides = cell_sides(&field);
+    let grid = Grid::new(&field, 1);
+    let Voxels::U8(codes) = &field.volume.voxels else { return };
+    let values = Values::Unorm8(codes.into());
     for preset in ["ramp", "surface", "linear"] {
         let transfer = TransferFunction::preset(preset, 1.0).expect("a built-in").expect("a sound function");
-        let flags = interesting(&field, &transfer);
+        let flags = interesting(&field, &values, &transfer, &grid);
         let shown = flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64;
-        let find = median(|| drop(std::hint::black_box(interesting(&field, &transfer))));
-        let transform = median(|| drop(std::hint::black_box(omni(field.cells(), sides, &flags))));
+        let find = median(|| drop(std::hint::black_box(interesting(&field, &values, &transfer, &grid))));
+        let any = median(|| drop(std::hint::black_box(omni(&grid, &flags))));
+        let octants = median(|| drop(std::hint::black_box(directional(&grid, &flags))));
+        let ms = |time: Duration| time.as_secs_f64() * 1e3;
         println!(
-            "vessels {SIZE}^3, {preset}: {:.1} % interesting; interesting {:.0} ms, omni {:.0} ms CPU, median of {RUNS}",
+            "vessels {SIZE}^3, {preset}: {:.1} % interesting; interesting {:.0} ms, omni {:.0} ms, directional {:.0} ms \
+             CPU, median of {RUNS}",
             100.0 * shown,
-            find.as_secs_f64() * 1e3,
-            transform.as_secs_f64() * 1e3
+            ms(find),
+            ms(any),
+            ms(octants),
         );
     }
 }

@@ -1,9 +1,9 @@
 //! Distance from each cell to the nearest interesting one [Thesis §5.3]: what near-neighbor skipping jumps by.
 //!
-//! The distance is that between the *boxes* of two cells, less [`SLACK`] and floored to whole voxels of the finest spacing: a lower
-//! bound for the distance of any point of the one to any point of the other. Border cells reach out to the faces of
-//! the volume and so are larger than their boxes here, but only away from all cells beside them: their outer part is
-//! farther from any other cell than their box is, and the bound holds there too.
+//! The distance is that between the *boxes* of two cells, less [`SLACK`](super::grid::SLACK) and floored to whole voxels
+//! of the finest spacing: a lower bound for the distance of any point of the one to any point of the other. Border cells
+//! reach out to the faces of the volume and so are larger than their boxes here, but only away from all cells beside
+//! them: their outer part is farther from any other cell than their box is, and the bound holds there too.
 //!
 //! The box distance between cells that are d apart on an axis is (|d| - 1) sides there, 0 for neighbours. So it is
 //! the plain distance between cell indices to the mask dilated by one cell in all 26 directions: a step towards the
@@ -12,18 +12,13 @@
 //! The transform is separable: sums of squares are minimised axis by axis, first by two scans along x, then along y
 //! and z as the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled
 //! Functions, 2012, §2). Departures: (1) the dilation is done along each axis just before its transform; (2) distances
-//! of 256 and more are one and the same, so parabolas that high are left out; (3) what is kept between the axes is
-//! f32, exact for isotropic spacing (integers up to 2^16) and else rounded down, which keeps the bound.
+//! of 256 and more are one and the same, so parabolas that high are left out; (3) squares are integers
+//! ([`super::square`]), which f64 holds exactly.
 
 use rayon::prelude::*;
 
-use super::grid::{DistanceField, FAR, Grid, SLACK};
-
-/// From here on a distance is [`FAR`] with slack to spare.
-const REACH: u32 = FAR as u32 + 1;
-
-/// Its square: no sum of squares from here on needs to be known.
-const FAR_SQUARED: f64 = (REACH * REACH) as f64;
+use super::grid::{DistanceField, FAR, Grid};
+use super::square::{FAR_SQUARED, free_voxels, reach, square_of, weight};
 
 /// Columns that are transformed together: a cache line of f32, so that each line is fetched once.
 const TILE: usize = 16;
@@ -34,7 +29,8 @@ const TILE: usize = 16;
 /// # Panics
 /// When there is not one flag a cell.
 pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
-    let ([nx, ny, nz], sides) = (grid.cells, grid.sides);
+    let [nx, ny, nz] = grid.cells;
+    let weights: [u32; 3] = std::array::from_fn(|axis| weight(grid.sides[axis]));
     assert_eq!(interesting.len(), nx * ny * nz, "one flag a cell");
     let mut distances = vec![FAR; interesting.len()];
     if !interesting.contains(&true) {
@@ -42,21 +38,21 @@ pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
     }
 
     // Along x and y, slab by slab: squared distances within the slab.
-    let mut squares = vec![f32::INFINITY; interesting.len()];
+    let mut squares = vec![FAR_SQUARED; interesting.len()];
     squares.par_chunks_mut(nx * ny).zip(interesting.par_chunks(nx * ny)).for_each(|(squares, flags)| {
         if !flags.contains(&true) {
             return;
         }
         for (squares, flags) in squares.chunks_exact_mut(nx).zip(flags.chunks_exact(nx)) {
-            scan(sides.x, flags, squares);
+            scan(weights[0], flags, squares);
         }
-        let mut envelope = Envelope::new(ny, sides.y);
+        let mut envelope = Envelope::new(ny, weights[1]);
         for x in (0..nx).step_by(TILE) {
             let width = TILE.min(nx - x);
             envelope.load(width, |y| &squares[y * nx + x..][..width]);
             envelope.transform();
             for (y, row) in squares.chunks_exact_mut(nx).enumerate() {
-                envelope.store(y, &mut row[x..][..width], round_down);
+                envelope.store(y, &mut row[x..][..width], |square| square);
             }
         }
     });
@@ -64,14 +60,13 @@ pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
     // Along z, for each y. Threads need slices of their own, so the result is in the order y, z, x first.
     let mut turned = vec![FAR; interesting.len()];
     turned.par_chunks_mut(nx * nz).enumerate().for_each(|(y, turned)| {
-        let mut envelope = Envelope::new(nz, sides.z);
+        let mut envelope = Envelope::new(nz, weights[2]);
         for x in (0..nx).step_by(TILE) {
             let width = TILE.min(nx - x);
             envelope.load(width, |z| &squares[(z * ny + y) * nx + x..][..width]);
             envelope.transform();
             for (z, row) in turned.chunks_exact_mut(nx).enumerate() {
-                // The cast saturates: below 0 becomes 0, FAR and all above it FAR.
-                envelope.store(z, &mut row[x..][..width], |square| (square.sqrt() - SLACK) as u8);
+                envelope.store(z, &mut row[x..][..width], free_voxels);
             }
         }
     });
@@ -83,29 +78,19 @@ pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
     DistanceField { grid: *grid, octants: 1, distances }
 }
 
-/// The largest f32 that is not above `x`.
-fn round_down(x: f64) -> f32 {
-    let rounded = x as f32;
-    if f64::from(rounded) > x { rounded.next_down() } else { rounded }
-}
-
-/// Squared box distance to the nearest flag of a row, infinite where it is [`REACH`] or more.
-fn scan(side: f64, flags: &[bool], squares: &mut [f32]) {
+/// Squared box distance to the nearest flag of a row.
+fn scan(weight: u32, flags: &[bool], squares: &mut [u32]) {
+    let reach = reach(weight);
     // Between boxes, so one cell less than between indices; the row starts as if beyond reach.
-    let square = |cells: u32| {
-        let distance = f64::from(cells.saturating_sub(1)) * side;
-        if distance < f64::from(REACH) { round_down(distance * distance) } else { f32::INFINITY }
-    };
-    let out_of_reach = REACH + 1;
-    let mut since = out_of_reach;
+    let mut since = reach + 1;
     for (flag, out) in flags.iter().zip(&mut *squares) {
-        since = if *flag { 0 } else { out_of_reach.min(since + 1) };
-        *out = square(since);
+        since = if *flag { 0 } else { (reach + 1).min(since + 1) };
+        *out = square_of(since.saturating_sub(1), weight, reach);
     }
-    since = out_of_reach;
+    since = reach + 1;
     for (flag, out) in flags.iter().zip(squares).rev() {
-        since = if *flag { 0 } else { out_of_reach.min(since + 1) };
-        *out = out.min(square(since));
+        since = if *flag { 0 } else { (reach + 1).min(since + 1) };
+        *out = (*out).min(square_of(since.saturating_sub(1), weight, reach));
     }
 }
 
@@ -113,10 +98,10 @@ fn scan(side: f64, flags: &[bool], squares: &mut [f32]) {
 struct Envelope {
     length: usize,
     /// Square of a cell's side along the column.
-    unit: f64,
+    weight: f64,
     /// The tile, column after column.
     columns: Vec<f64>,
-    /// Parabolas of the envelope, in rising order: where the apex stands and how high, in units of `unit` that height
+    /// Parabolas of the envelope, in rising order: where the apex stands and how high, in units of `weight` that height
     /// and the square of its place, and the place from which on this parabola is the lowest.
     apex: Vec<usize>,
     foot: Vec<f64>,
@@ -127,10 +112,10 @@ struct Envelope {
 }
 
 impl Envelope {
-    fn new(length: usize, side: f64) -> Self {
+    fn new(length: usize, weight: u32) -> Self {
         Self {
             length,
-            unit: side * side,
+            weight: f64::from(weight),
             columns: vec![0.0; length * TILE],
             apex: vec![0; length],
             foot: vec![0.0; length],
@@ -141,7 +126,7 @@ impl Envelope {
     }
 
     /// Takes a tile of `width` columns, given row by row.
-    fn load<'a>(&mut self, width: usize, row: impl Fn(usize) -> &'a [f32]) {
+    fn load<'a>(&mut self, width: usize, row: impl Fn(usize) -> &'a [u32]) {
         for i in 0..self.length {
             for (column, value) in row(i)[..width].iter().enumerate() {
                 self.columns[column * self.length + i] = f64::from(*value);
@@ -150,9 +135,10 @@ impl Envelope {
     }
 
     /// Gives row `i` of the tile.
-    fn store<T>(&self, i: usize, row: &mut [T], convert: impl Fn(f64) -> T) {
+    fn store<T>(&self, i: usize, row: &mut [T], convert: impl Fn(u32) -> T) {
         for (column, out) in row.iter_mut().enumerate() {
-            *out = convert(self.columns[column * self.length + i]);
+            // The cast saturates.
+            *out = convert((self.columns[column * self.length + i] as u32).min(FAR_SQUARED));
         }
     }
 
@@ -170,11 +156,11 @@ impl Envelope {
     fn lower(&mut self, column: &mut [f64]) {
         let mut count = 0;
         for (i, &f) in column.iter().enumerate() {
-            if f >= FAR_SQUARED {
+            if f >= f64::from(FAR_SQUARED) {
                 continue;
             }
             let place = i as f64;
-            let height = f / self.unit + place * place;
+            let height = f / self.weight + place * place;
             let mut from = f64::NEG_INFINITY;
             while count > 0 {
                 let top = count - 1;
@@ -206,7 +192,7 @@ impl Envelope {
             let first = begin as f64 - self.apex[k] as f64;
             for (i, out) in column[begin..end].iter_mut().enumerate() {
                 let along = first + i as f64;
-                *out = along * along * self.unit + foot;
+                *out = along * along * self.weight + foot;
             }
             begin = end;
         }

@@ -4,6 +4,7 @@ pub mod blocks;
 pub mod cells;
 pub mod distance;
 pub mod grid;
+pub mod octants;
 pub mod square;
 
 use glam::DVec3;
@@ -57,5 +58,8 @@ impl Lookup {
 pub fn build(field: &Field, values: &Values, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
     let grid = Grid::new(field, lookup.cell);
     let interesting = cells::interesting(field, values, transfer, &grid);
-    distance::omni(&grid, &interesting)
+    match lookup.distance {
+        Distance::Directional => octants::directional(&grid, &interesting),
+        _ => distance::omni(&grid, &interesting),
+    }
 }
