@@ -14,7 +14,8 @@ use depthleap::vulkan::{Device, Instance, pick};
 use depthleap::{Error, Result, read};
 
 const RUNS: usize = 5;
-const METHODS: [MethodName; 2] = [MethodName::NnOmni, MethodName::NnDirectional];
+const METHODS: [MethodName; 4] =
+    [MethodName::NnOmni, MethodName::NnDirectional, MethodName::NnOptimal, MethodName::NnCone];
 
 fn main() -> Result<()> {
     let cells: Vec<u32> = match std::env::args().find(|a| a.starts_with(|c: char| c.is_ascii_digit())) {

@@ -10,7 +10,7 @@ use depthleap::pass::{Work, main_pass};
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{Frame, Piece, Slice, Step, pieces};
+use depthleap::shared::{Bundle, Frame, Piece, Slice, Step, pieces};
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
 
@@ -68,6 +68,10 @@ fn step() -> Layout {
 
 fn slice() -> Layout {
     layout!(Slice { first, end, cells_x, cells_y, cells_z, cell, inner, outer, stride, weight, reach, octant })
+}
+
+fn bundle() -> Layout {
+    layout!(Bundle { eye, sides, low, high, spread, short_step })
 }
 
 fn piece() -> Layout {
@@ -211,13 +215,20 @@ fn slice_is_alike_in_rust_and_in_every_shader() {
 }
 
 #[test]
+fn bundle_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("Bundle", &bundle(), "structure/bundle.comp");
+}
+
+#[test]
 fn piece_is_alike_in_rust_and_in_every_shader() {
     assert_alike("Piece", &piece(), "main_pass.frag:discard+holes");
 }
 
 #[test]
 fn every_alteration_of_a_layout_is_seen() {
-    for (name, rust) in [("Frame", frame()), ("Step", step()), ("Slice", slice()), ("Piece", piece())] {
+    for (name, rust) in
+        [("Frame", frame()), ("Step", step()), ("Slice", slice()), ("Bundle", bundle()), ("Piece", piece())]
+    {
         let shader = in_shaders(name).swap_remove(0).1;
         let altered = |alter: &dyn Fn(&mut Layout)| {
             let mut copy = rust.clone();

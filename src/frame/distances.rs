@@ -17,6 +17,7 @@ use crate::scene::Field;
 use crate::scene::settings::Distance;
 use crate::shared;
 use crate::structure::Lookup;
+use crate::structure::bundle::Bundles;
 use crate::structure::cells::Support;
 use crate::structure::grid::{Grid, OCTANTS};
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
@@ -160,7 +161,7 @@ impl Distances {
         let image = distance_image(device, &grid, octants, lookup.view.is_none())?;
         let mut buffers = self.transient(device, &grid, octants, &list)?;
         if let Some(view) = &lookup.view {
-            let bundle = shared::Bundle::new(&grid, source.field, view);
+            let bundle = shared::Bundle::from(&Bundles::new(&grid, source.field, view));
             buffers.push((Resource::Bundle, filled(device, Resource::Bundle, bytemuck::bytes_of(&bundle), true)?));
         }
         let omni = self.get(&Lookup { distance: Distance::Omni, view: None, ..*lookup });

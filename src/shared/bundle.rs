@@ -1,17 +1,31 @@
-//! Placeholder.
-use crate::scene::Field;
-use crate::structure::LookupView;
-use crate::structure::grid::Grid;
+//! The bundles of rays that distances are made for.
+
 use bytemuck::{Pod, Zeroable};
 
+use crate::structure::bundle::Bundles;
+
+/// `Bundle` of `glsl/structure/bundle.comp`, where its members are explained.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Bundle {
     pub eye: [f32; 4],
+    pub sides: [f32; 4],
+    pub low: [f32; 4],
+    pub high: [f32; 4],
+    pub spread: f32,
+    pub short_step: f32,
 }
 
-impl Bundle {
-    pub fn new(_: &Grid, _: &Field, _: &LookupView) -> Self {
-        Self { eye: [0.0; 4] }
+impl From<&Bundles> for Bundle {
+    fn from(of: &Bundles) -> Self {
+        let four = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
+        Self {
+            eye: four(of.eye),
+            sides: four(of.sides),
+            low: four(of.low),
+            high: four(of.high),
+            spread: of.spread,
+            short_step: of.step,
+        }
     }
 }

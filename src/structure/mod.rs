@@ -1,16 +1,19 @@
 //! Structures that tell where a volume holds nothing to see.
 
 pub mod blocks;
+pub mod bundle;
 pub mod cells;
 pub mod distance;
 pub mod grid;
 pub mod octants;
 pub mod square;
+pub mod wide;
 
 use glam::DVec3;
 
 use crate::scene::settings::Distance;
 use crate::scene::{Field, Scene, TransferFunction};
+use bundle::Bundles;
 use cells::Values;
 use grid::{DistanceField, Grid};
 
@@ -33,12 +36,6 @@ pub struct LookupView {
     pub half_angle: Option<f64>,
 }
 
-impl LookupView {
-    pub fn serves(&self, _grid: &Grid, _field: &Field, eye: DVec3) -> bool {
-        self.eye == eye
-    }
-}
-
 impl Lookup {
     /// What the scene's method looks up; none where it does not look ahead.
     pub fn of(scene: &Scene) -> Option<Self> {
@@ -58,8 +55,12 @@ impl Lookup {
 pub fn build(field: &Field, values: &Values, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
     let grid = Grid::new(field, lookup.cell);
     let interesting = cells::interesting(field, values, transfer, &grid);
-    match lookup.distance {
-        Distance::Directional => octants::directional(&grid, &interesting),
-        _ => distance::omni(&grid, &interesting),
+    match (lookup.distance, &lookup.view) {
+        (Distance::Directional, _) => octants::directional(&grid, &interesting),
+        (_, None) => distance::omni(&grid, &interesting),
+        (_, Some(view)) => {
+            let omni = distance::omni(&grid, &interesting);
+            bundle::along(&omni, &interesting, &Bundles::new(&grid, field, view))
+        }
     }
 }

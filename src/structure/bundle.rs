@@ -1,0 +1,208 @@
+//! Distances along bundles of rays: from each cell to the first interesting one that a ray of its bundle may meet.
+//!
+//! `optimal` [Thesis §5.3.1]: the rays of a view, from the eye through any point of the cell. Departure: the thesis takes
+//! one direction for the whole view, which misses samples under perspective; here the bound holds for every ray through
+//! the cell's box. `cone` [Thesis §5.7]: the rays through the cell whose directions are within an angle of that from the
+//! eye to the cell's centre, so that the bound still holds when the camera has moved a little ([`Bundles::serves`]).
+//!
+//! Lengths are in voxels of the finest spacing, from the first voxel's centre. With m the centre of the cell's box, h its
+//! half sides and v the direction from the eye to m, all that rays of the bundle reach while the centre's goes the way l
+//! lies in the box (m + l v) +- (h + spread l), and in the ball of radius |h| + widening l about m + l v:
+//!
+//! - `optimal`: everything grows with the distance from the eye, spread = h / |m - eye|, widening = |h| / |m - eye|; a
+//!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
+//! - `cone`: a unit vector within an angle t of v is within 2 sin(t/2) of it, which is spread on every axis, and widening.
+//!
+//! The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps whose
+//! boxes are held against the interesting cells. Border cells reach out to the faces of the volume. In f32, operation by
+//! operation as in `glsl/structure/bundle.comp`, its twin.
+
+use rayon::prelude::*;
+
+use super::LookupView;
+use super::grid::{DistanceField, FAR, Grid};
+use super::wide::Wide;
+use crate::scene::Field;
+
+/// Room for f32, in voxels: coordinates of up to some thousand voxels, rounded a few times.
+const MARGIN: f32 = 1.0 / 512.0;
+
+/// Steps along a ray before the search ends where it is.
+const STEPS: u32 = 1024;
+
+/// The bundles of all cells of a grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bundles {
+    pub eye: [f32; 3],
+    /// Sides of a cell of the grid.
+    pub sides: [f32; 3],
+    /// Faces of the volume.
+    pub low: [f32; 3],
+    pub high: [f32; 3],
+    /// 2 sin(t/2) of a cone; 0 for the rays of the view.
+    pub spread: f32,
+    /// Length of a short step.
+    pub step: f32,
+}
+
+impl Bundles {
+    pub fn new(grid: &Grid, field: &Field, view: &LookupView) -> Self {
+        let spacing = grid.sides / grid.cell as f64;
+        let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
+        let single = |v: glam::DVec3| v.as_vec3().to_array();
+        Self {
+            eye: single(eye_in_voxels(grid, field, view.eye)),
+            sides: single(grid.sides),
+            low: single(-0.5 * spacing),
+            high: single((dims - 0.5) * spacing),
+            spread: view.half_angle.map_or(0.0, |t| 2.0 * (0.5 * t).sin()) as f32,
+            step: 0.5 * grid.cell as f32,
+        }
+    }
+}
+
+/// A point of volume space in voxels of the finest spacing, from the first voxel's centre.
+fn eye_in_voxels(grid: &Grid, field: &Field, point: glam::DVec3) -> glam::DVec3 {
+    let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
+    ((point / field.extent() + 0.5) * dims - 0.5) * (grid.sides / grid.cell as f64)
+}
+
+/// Distances of all cells along their bundles. `omni` are those in any direction, `interesting` has one flag a cell.
+pub fn along(omni: &DistanceField, interesting: &[bool], bundles: &Bundles) -> DistanceField {
+    let grid = omni.grid;
+    let [nx, ny, _] = grid.cells;
+    let two = Wide::of(&grid, interesting).widened(1);
+    let search = Search { bundles, omni, four: two.widened(2), two };
+    let mut distances = vec![0; grid.count()];
+    distances.par_chunks_mut(nx).enumerate().for_each(|(row, line)| {
+        for (x, distance) in line.iter_mut().enumerate() {
+            *distance = search.distance([x, row % ny, row / ny]);
+        }
+    });
+    DistanceField { grid, octants: 1, distances }
+}
+
+struct Search<'a> {
+    bundles: &'a Bundles,
+    omni: &'a DistanceField,
+    /// Any interesting cell among 2^3 and 4^3 from each on.
+    two: Wide,
+    four: Wide,
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl Search<'_> {
+    fn distance(&self, cell: [usize; 3]) -> u8 {
+        let Bundles { eye, sides, low, high, spread, step } = *self.bundles;
+        let grid = &self.omni.grid;
+        let least = self.omni.distances[grid.index(cell)];
+        let (mut middle, mut half) = ([0.0; 3], [0.0; 3]);
+        for a in 0..3 {
+            let begin = if cell[a] == 0 { low[a] } else { cell[a] as f32 * sides[a] };
+            let end = if cell[a] + 1 == grid.cells[a] { high[a] } else { (cell[a] + 1) as f32 * sides[a] };
+            middle[a] = 0.5 * (begin + end);
+            half[a] = 0.5 * (end - begin);
+        }
+        let way: [f32; 3] = std::array::from_fn(|a| middle[a] - eye[a]);
+        let (away, radius) = (dot(way, way).sqrt(), dot(half, half).sqrt());
+        if away <= radius + 1.0 {
+            // Seen from within, rays go anywhere.
+            return least;
+        }
+        let direction = way.map(|w| w / away);
+        let cone = spread > 0.0;
+        let spreads = half.map(|h| if cone { spread } else { h / away });
+        let widening = if cone { spread } else { radius / away };
+        let shortened = if cone { 1.0 } else { (away - radius) / away };
+        let mut free = 0.0f32;
+        for _ in 0..STEPS {
+            if free * shortened > 257.0 {
+                break;
+            }
+            let (here, side) = self.place(middle, half, direction, spreads, free);
+            if (0..3).any(|a| here[a] + side[a] < low[a] || here[a] - side[a] > high[a]) {
+                // Rays that have left do not come back.
+                return FAR;
+            }
+            let at: [usize; 3] = std::array::from_fn(|a| self.cell_of(here[a], a));
+            let room = f32::from(self.omni.distances[grid.index(at)]) - (radius + widening * free) - MARGIN;
+            if room > step {
+                free += room / (1.0 + widening);
+                continue;
+            }
+            let (there, side_there) = self.place(middle, half, direction, spreads, free + step);
+            let mut first = [0; 3];
+            let mut last = [0; 3];
+            for a in 0..3 {
+                first[a] = self.cell_of((here[a] - side[a]).min(there[a] - side_there[a]) - MARGIN, a);
+                last[a] = self.cell_of((here[a] + side[a]).max(there[a] + side_there[a]) + MARGIN, a);
+            }
+            if self.meets(first, last) {
+                break;
+            }
+            free += step;
+        }
+        let whole = (free * shortened - MARGIN).floor().clamp(0.0, f32::from(FAR)) as u8;
+        whole.max(least)
+    }
+
+    /// Centre and half sides of what the bundle reaches after the way `free`.
+    fn place(
+        &self,
+        middle: [f32; 3],
+        half: [f32; 3],
+        direction: [f32; 3],
+        spreads: [f32; 3],
+        free: f32,
+    ) -> ([f32; 3], [f32; 3]) {
+        let centre = std::array::from_fn(|a| middle[a] + free * direction[a]);
+        let side = std::array::from_fn(|a| half[a] + free * spreads[a]);
+        (centre, side)
+    }
+
+    fn cell_of(&self, coordinate: f32, axis: usize) -> usize {
+        let last = (self.omni.grid.cells[axis] - 1) as f32;
+        (coordinate / self.bundles.sides[axis]).floor().clamp(0.0, last) as usize
+    }
+
+    /// Whether a cell from `first` to `last` is interesting; a window of more than 8 cells counts as one that is.
+    fn meets(&self, first: [usize; 3], last: [usize; 3]) -> bool {
+        let widest = (0..3).map(|a| last[a] - first[a]).max().unwrap_or(0);
+        let (wide, covers) = match widest {
+            0..4 => (&self.two, 2),
+            4..8 => (&self.four, 4),
+            _ => return true,
+        };
+        // Two overlapping lookups on an axis where one does not cover the window.
+        let ends = |a: usize| [first[a], (last[a] + 1).saturating_sub(covers).max(first[a])];
+        let once = |[a, b]: [usize; 2]| if a == b { 1 } else { 2 };
+        let (xs, ys, zs) = (ends(0), ends(1), ends(2));
+        zs[..once(zs)]
+            .iter()
+            .any(|&z| ys[..once(ys)].iter().any(|&y| xs[..once(xs)].iter().any(|&x| wide.at([x, y, z]))))
+    }
+}
+
+impl LookupView {
+    /// Whether distances made for this view hold for every ray of a camera at `eye` (volume space).
+    ///
+    /// For the rays of the view alone that is its own eye. For a cone: a ray from the moved eye e' through a point p of
+    /// the cell with centre m has the direction p - e', which differs from m - e by at most |h| + |e' - e|; so the angle
+    /// between them is at most asin((|h| + |e' - e|) / |m - e|), and no cell's centre is nearer than the box of centres.
+    pub fn serves(&self, grid: &Grid, field: &Field, eye: glam::DVec3) -> bool {
+        let Some(half_angle) = self.half_angle else { return self.eye == eye };
+        let [made_for, moved] = [self.eye, eye].map(|eye| eye_in_voxels(grid, field, eye));
+        let spacing = grid.sides / grid.cell as f64;
+        let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
+        let (low, high) = (-0.5 * spacing, (dims - 0.5) * spacing);
+        // Border cells are larger by half a voxel, on both sides where there is but one.
+        let half = 0.5 * (grid.sides + spacing);
+        let nearest = made_for.clamp(low, high).distance(made_for);
+        let off = half.length() + made_for.distance(moved);
+        // A cell that is nearer than its own size falls back on distances in any direction; the others are what counts.
+        off < nearest * half_angle.sin() * (1.0 - f64::from(f32::EPSILON) * 16.0)
+    }
+}
