@@ -216,7 +216,7 @@ fn slice_is_alike_in_rust_and_in_every_shader() {
 
 #[test]
 fn bundle_is_alike_in_rust_and_in_every_shader() {
-    assert_alike("Bundle", &bundle(), "structure/bundle.comp");
+    assert_alike("Bundle", &bundle(), "structure/bundle.comp:next");
 }
 
 #[test]

@@ -44,6 +44,9 @@ pub enum Resource {
     SquaresAfter,
     /// Distances on their way to the texture.
     DistanceBytes,
+    /// Distances for boxes of 2^3 and 4^3 cells, from which those of cells go on.
+    Boxes2,
+    Boxes4,
     /// The distances in any direction, where others are made from them.
     OmniDistance,
     /// The bundles of rays that distances are made for, a uniform buffer.
@@ -74,6 +77,8 @@ impl Resource {
             Self::Squares => "squares",
             Self::SquaresAfter => "squares_after",
             Self::DistanceBytes => "distance_bytes",
+            Self::Boxes2 => "boxes_2",
+            Self::Boxes4 => "boxes_4",
             Self::OmniDistance => "omni_distance",
             Self::Bundle => "bundle",
         }

@@ -13,7 +13,9 @@
 //!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
 //! - `cone`: a unit vector within an angle t of v is within 2 sin(t/2) of it, which is spread on every axis, and widening.
 //!
-//! The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps whose
+//! Boxes of 4^3 and 2^3 cells are searched first: what is free for all rays through one is free for those through each of
+//! its cells, whose search begins there. (Directions of a cone differ from box to box, so the cones of larger boxes are
+//! wider, by [`WIDER`].) The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps whose
 //! boxes are held against the interesting cells. Border cells reach out to the faces of the volume. In f32, operation by
 //! operation as in `glsl/structure/bundle.comp`, its twin.
 
@@ -29,6 +31,15 @@ const MARGIN: f32 = 1.0 / 512.0;
 
 /// Steps along a ray before the search ends where it is.
 const STEPS: u32 = 1024;
+
+/// Sides of the boxes that are searched, in cells.
+pub const SCALES: [usize; 3] = [4, 2, 1];
+
+/// How much wider the cones of boxes of several cells are, in |h| / |m - eye|. The directions to two points of a box
+/// differ by less than sqrt(2) |h| / |m - eye|; with what the next smaller boxes add on their part it stays below this
+/// where the eye is [`AWAY`] |h| or more from the box.
+const WIDER: f32 = 3.0;
+const AWAY: f32 = 3.0;
 
 /// The bundles of all cells of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,25 +80,40 @@ fn eye_in_voxels(grid: &Grid, field: &Field, point: glam::DVec3) -> glam::DVec3 
 
 /// Distances of all cells along their bundles. `omni` are those in any direction, `interesting` has one flag a cell.
 pub fn along(omni: &DistanceField, interesting: &[bool], bundles: &Bundles) -> DistanceField {
-    let grid = omni.grid;
-    let [nx, ny, _] = grid.cells;
-    let two = Wide::of(&grid, interesting).widened(1);
-    let search = Search { bundles, omni, four: two.widened(2), two };
-    let mut distances = vec![0; grid.count()];
-    distances.par_chunks_mut(nx).enumerate().for_each(|(row, line)| {
-        for (x, distance) in line.iter_mut().enumerate() {
-            *distance = search.distance([x, row % ny, row / ny]);
-        }
-    });
-    DistanceField { grid, octants: 1, distances }
+    let two = Wide::of(&omni.grid, interesting).widened(1);
+    let four = two.widened(2);
+    let mut found: Option<Level> = None;
+    for scale in SCALES {
+        let boxes = omni.grid.cells.map(|n| n.div_ceil(scale));
+        let search = Search { bundles, omni, two: &two, four: &four, scale, boxes, larger: found.as_ref() };
+        let mut distances = vec![0; boxes.iter().product()];
+        distances.par_chunks_mut(boxes[0]).enumerate().for_each(|(row, line)| {
+            for (x, distance) in line.iter_mut().enumerate() {
+                *distance = search.distance([x, row % boxes[1], row / boxes[1]]);
+            }
+        });
+        found = Some(Level { boxes, distances });
+    }
+    DistanceField { grid: omni.grid, octants: 1, distances: found.map(|level| level.distances).unwrap_or_default() }
+}
+
+/// What was found for boxes of one size.
+struct Level {
+    boxes: [usize; 3],
+    distances: Vec<u8>,
 }
 
 struct Search<'a> {
     bundles: &'a Bundles,
     omni: &'a DistanceField,
     /// Any interesting cell among 2^3 and 4^3 from each on.
-    two: Wide,
-    four: Wide,
+    two: &'a Wide,
+    four: &'a Wide,
+    /// Side of a box in cells, and how many there are.
+    scale: usize,
+    boxes: [usize; 3],
+    /// The boxes twice as large.
+    larger: Option<&'a Level>,
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -95,29 +121,39 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 }
 
 impl Search<'_> {
-    fn distance(&self, cell: [usize; 3]) -> u8 {
+    fn distance(&self, at: [usize; 3]) -> u8 {
         let Bundles { eye, sides, low, high, spread, step } = *self.bundles;
-        let grid = &self.omni.grid;
-        let least = self.omni.distances[grid.index(cell)];
+        let (grid, scale) = (&self.omni.grid, self.scale);
+        let known = self.larger.map_or(0, |level| {
+            let [x, y, z] = at.map(|i| i / 2);
+            level.distances[(z * level.boxes[1] + y) * level.boxes[0] + x]
+        });
+        if known == FAR {
+            return FAR;
+        }
+        let least = if scale == 1 { known.max(self.omni.distances[grid.index(at)]) } else { known };
         let (mut middle, mut half) = ([0.0; 3], [0.0; 3]);
         for a in 0..3 {
-            let begin = if cell[a] == 0 { low[a] } else { cell[a] as f32 * sides[a] };
-            let end = if cell[a] + 1 == grid.cells[a] { high[a] } else { (cell[a] + 1) as f32 * sides[a] };
+            let begin = if at[a] == 0 { low[a] } else { (at[a] * scale) as f32 * sides[a] };
+            let end = if at[a] + 1 == self.boxes[a] { high[a] } else { ((at[a] + 1) * scale) as f32 * sides[a] };
             middle[a] = 0.5 * (begin + end);
             half[a] = 0.5 * (end - begin);
         }
         let way: [f32; 3] = std::array::from_fn(|a| middle[a] - eye[a]);
         let (away, radius) = (dot(way, way).sqrt(), dot(half, half).sqrt());
-        if away <= radius + 1.0 {
-            // Seen from within, rays go anywhere.
+        // Seen from within, rays go anywhere.
+        if away <= if scale == 1 { radius + 1.0 } else { AWAY * radius } {
             return least;
         }
         let direction = way.map(|w| w / away);
         let cone = spread > 0.0;
-        let spreads = half.map(|h| if cone { spread } else { h / away });
-        let widening = if cone { spread } else { radius / away };
+        let wider = if scale == 1 { spread } else { spread + WIDER * (radius / away) };
+        let spreads = half.map(|h| if cone { wider } else { h / away });
+        let widening = if cone { wider } else { radius / away };
         let shortened = if cone { 1.0 } else { (away - radius) / away };
-        let mut free = 0.0f32;
+        let lengthened = if cone { 1.0 } else { (away + radius) / away };
+        let short = step * scale as f32;
+        let mut free = f32::from(known) / lengthened;
         for _ in 0..STEPS {
             if free * shortened > 257.0 {
                 break;
@@ -127,13 +163,13 @@ impl Search<'_> {
                 // Rays that have left do not come back.
                 return FAR;
             }
-            let at: [usize; 3] = std::array::from_fn(|a| self.cell_of(here[a], a));
-            let room = f32::from(self.omni.distances[grid.index(at)]) - (radius + widening * free) - MARGIN;
-            if room > step {
+            let cell: [usize; 3] = std::array::from_fn(|a| self.cell_of(here[a], a));
+            let room = f32::from(self.omni.distances[grid.index(cell)]) - (radius + widening * free) - MARGIN;
+            if room > short {
                 free += room / (1.0 + widening);
                 continue;
             }
-            let (there, side_there) = self.place(middle, half, direction, spreads, free + step);
+            let (there, side_there) = self.place(middle, half, direction, spreads, free + short);
             let mut first = [0; 3];
             let mut last = [0; 3];
             for a in 0..3 {
@@ -143,7 +179,7 @@ impl Search<'_> {
             if self.meets(first, last) {
                 break;
             }
-            free += step;
+            free += short;
         }
         let whole = (free * shortened - MARGIN).floor().clamp(0.0, f32::from(FAR)) as u8;
         whole.max(least)
@@ -172,8 +208,8 @@ impl Search<'_> {
     fn meets(&self, first: [usize; 3], last: [usize; 3]) -> bool {
         let widest = (0..3).map(|a| last[a] - first[a]).max().unwrap_or(0);
         let (wide, covers) = match widest {
-            0..4 => (&self.two, 2),
-            4..8 => (&self.four, 4),
+            0..4 => (self.two, 2),
+            4..8 => (self.four, 4),
             _ => return true,
         };
         // Two overlapping lookups on an axis where one does not cover the window.

@@ -3,6 +3,8 @@
 use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
 use crate::pass::Step;
 use crate::pass::resource::Resource;
+use crate::shared::Slice;
+use crate::structure::bundle::SCALES;
 use crate::structure::grid::Grid;
 
 /// Interesting cells among 2^3 and 4^3, from each cell on. Depends on volume and transfer function.
@@ -16,17 +18,25 @@ pub fn widen(grid: &Grid) -> Vec<Step> {
     vec![widen(Resource::Interesting, Resource::Wide2, 1), widen(Resource::Wide2, Resource::Wide4, 2)]
 }
 
-/// For the rays of a view, given by the uniform buffer `bundle`.
+/// For the rays of a view, given by the uniform buffer `bundle`: boxes of several cells first.
 pub fn bundle(grid: &Grid) -> Vec<Step> {
-    let reads = [
-        ("bundle", Resource::Bundle),
-        ("omni_distance", Resource::OmniDistance),
-        ("wide_2", Resource::Wide2),
-        ("wide_4", Resource::Wide4),
-    ];
-    let writes = [("distance_bytes", Resource::DistanceBytes)];
-    let slice = slice(grid, words_of_bytes(grid));
-    // Some dozen steps along a ray for each of four cells.
-    let step = dispatch("bundle".to_owned(), "structure/bundle.comp", &reads, &writes, slice, 64);
-    vec![step, unpack(Resource::NearestDistance)]
+    let mut steps = Vec::new();
+    let mut larger = None;
+    for (scale, to) in SCALES.into_iter().zip([Resource::Boxes4, Resource::Boxes2, Resource::DistanceBytes]) {
+        let mut reads = vec![
+            ("bundle", Resource::Bundle),
+            ("omni_distance", Resource::OmniDistance),
+            ("wide_2", Resource::Wide2),
+            ("wide_4", Resource::Wide4),
+        ];
+        reads.extend(larger.map(|larger| ("larger", larger)));
+        let shader = if larger.is_none() { "structure/bundle.comp:first" } else { "structure/bundle.comp:next" };
+        let boxes = grid.cells.map(|n| n.div_ceil(scale));
+        let slice = Slice { cell: scale as u32, ..slice(grid, words_of_bytes(boxes)) };
+        // Some dozen steps along a ray for each of four boxes.
+        steps.push(dispatch(format!("bundle #{scale}"), shader, &reads, &[("distance_bytes", to)], slice, 64));
+        larger = Some(to);
+    }
+    steps.push(unpack(Resource::NearestDistance));
+    steps
 }

@@ -14,7 +14,7 @@ const SHADER_SCAN: &str = "structure/distance_scan.comp";
 pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
     // Each column is read before it is written, so one buffer does.
     let squares = Resource::Squares;
-    let mut pack = slice(grid, words_of_bytes(grid));
+    let mut pack = slice(grid, words_of_bytes(grid.cells));
     pack.cell = 1;
     vec![
         first_axis(grid, "distance_x".to_owned(), "both", squares, 0),

@@ -53,8 +53,8 @@ fn words_of_bits(grid: &Grid) -> usize {
 }
 
 /// Words of rows that have a byte a cell.
-fn words_of_bytes(grid: &Grid) -> usize {
-    grid.cells[0].div_ceil(4) * grid.cells[1] * grid.cells[2]
+fn words_of_bytes([x, y, z]: [usize; 3]) -> usize {
+    x.div_ceil(4) * y * z
 }
 
 /// Bytes a resource of a build takes; 0 for those that are not made for one.
@@ -64,7 +64,9 @@ pub fn bytes(grid: &Grid, octants: usize, resource: Resource) -> u64 {
         Resource::Interesting | Resource::Wide2 | Resource::Wide4 => 4 * words_of_bits(grid),
         Resource::Squares | Resource::SquaresAfter => 4 * grid.count(),
         Resource::DistanceBytes if octants > 1 => octants * grid.count(),
-        Resource::DistanceBytes => 4 * words_of_bytes(grid),
+        Resource::DistanceBytes => 4 * words_of_bytes(grid.cells),
+        Resource::Boxes2 => 4 * words_of_bytes(grid.cells.map(|n| n.div_ceil(2))),
+        Resource::Boxes4 => 4 * words_of_bytes(grid.cells.map(|n| n.div_ceil(4))),
         _ => 0,
     };
     bytes as u64
