@@ -124,7 +124,7 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
     with_both(|device| {
         let (graphics, compute) = (&device.graphics, &device.compute);
         let field = field([19, 17, 9]);
-        let (_, expected) = blocks::ranges(&field);
+        let (_, expected) = blocks::ranges(&field, 8);
         let volume = Image::new(
             device,
             ImageInfo {
