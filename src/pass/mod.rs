@@ -7,6 +7,7 @@ pub mod alive;
 pub mod block_range;
 pub mod block_skip;
 pub mod clear;
+pub mod constants;
 pub mod cull;
 pub mod direction;
 pub mod entry;

@@ -8,6 +8,7 @@ pub mod main_pass;
 pub mod near_neighbor;
 pub mod samples;
 pub mod section;
+pub mod segment;
 pub mod termination;
 
 use glam::DVec3;
