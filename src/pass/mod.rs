@@ -11,6 +11,7 @@ pub mod constants;
 pub mod cull;
 pub mod direction;
 pub mod entry;
+pub mod fused;
 pub mod main_pass;
 pub mod mark_copy;
 pub mod near_neighbor;

@@ -4,6 +4,7 @@ pub mod block_skip;
 pub mod direction;
 pub mod entry;
 pub mod exact;
+pub mod fused;
 pub mod main_pass;
 pub mod near_neighbor;
 pub mod samples;
