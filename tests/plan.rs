@@ -85,7 +85,7 @@ fn unwritten(steps: &[Step]) -> Vec<String> {
     .into();
     let mut found = Vec::new();
     for step in steps {
-        let reads = step.accesses.iter().filter(|access| !access.usage.writes());
+        let reads = step.accesses.iter().filter(|access| access.usage.reads());
         let missing = reads.filter(|access| !there.contains(&access.resource));
         found.extend(missing.map(|access| format!("{} reads {}", step.name, access.resource.name())));
         there.extend(step.accesses.iter().filter(|access| access.usage.writes()).map(|access| access.resource));
@@ -107,6 +107,7 @@ fn read_before_its_write_is_seen() {
         ("rc", "entry", "direction reads entry"),
         ("rc-block", "cell_range", "block_skip #1 reads cell_range"),
         ("nn-omni_ztest_copy", "mark_copy #0", "main_pass #0 reads stored"),
+        ("nn-omni+fused_ztest_copy", "mark_copy #0", "fused #0 reads stored"),
     ] {
         let mut steps = cases().into_iter().find(|case| case.name == name).unwrap().plan.steps;
         steps.retain(|step| step.name != group);
@@ -295,12 +296,42 @@ fn too_many_passes_are_refused() {
 
 #[test]
 fn rays_left_are_counted_every_eight_passes() {
-    for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+    for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused] {
         let mut settings = settings(method);
         settings.sampling.passes = 26;
         let counted: Vec<u32> =
             planned(&settings).steps.iter().filter(|s| s.group == Group::Alive).map(|s| s.pass).collect();
         assert_eq!(counted, [8, 16, 24], "{}", method.name());
+    }
+}
+
+#[test]
+fn fused_passes_mark_for_the_next_one_and_the_last_for_nobody() {
+    use MethodName::{NnConeFused, NnDirectionalFused, NnOmniFused, NnOptimalFused};
+    for method in [NnOmniFused, NnDirectionalFused, NnOptimalFused, NnConeFused] {
+        for (form, passes) in Form::all(method).into_iter().flat_map(|form| [1, 2, 17].map(|passes| (form, passes))) {
+            let mut settings = settings(method);
+            settings.sampling.passes = passes;
+            let plan = plan(&scene(&settings), Some(form)).unwrap();
+            let name = |step: &Step| step.name.clone();
+            let decided = |pass: u32| {
+                let copy = (form.mark == Mark::Copy).then(|| format!("mark_copy #{pass}"));
+                let count = (pass > 0 && pass.is_multiple_of(8)).then(|| format!("alive #{pass}"));
+                copy.into_iter().chain(count)
+            };
+            let main = (0..passes).flat_map(|pass| decided(pass).chain([format!("fused #{pass}")]));
+            let before = ["entry", "direction", "clear", "near_neighbor #0"].map(str::to_owned);
+            let expected: Vec<String> = before.into_iter().chain(main).collect();
+            assert_eq!(plan.steps.iter().map(name).collect::<Vec<_>>(), expected, "{}", form.name());
+
+            let fused = plan.steps.iter().filter(|step| step.group == Group::Main);
+            let marks = |step: &Step| {
+                step.accesses.iter().any(|a| *a == Usage::Color.of(Resource::Marks) || a.usage == Usage::DepthWrite)
+            };
+            let marking: Vec<bool> = fused.map(marks).collect();
+            let last = marking.len() - 1;
+            assert!(marking.iter().enumerate().all(|(i, marks)| *marks == (i < last)), "{}", form.name());
+        }
     }
 }
 

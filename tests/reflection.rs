@@ -43,6 +43,22 @@ fn main_pass_binds_what_it_declares() {
 }
 
 #[test]
+fn fused_pass_reads_what_it_blends_into() {
+    let accumulated = ("accumulated", 7, vk::DescriptorType::INPUT_ATTACHMENT);
+    for variant in ["copy", "fragdepth", "last", "copy+discard+holes"] {
+        let shader = module(&format!("fused.frag:{variant}"));
+        assert!(bindings(&shader).contains(&accumulated), "{variant}: {:?}", shader.bindings);
+    }
+    assert!(!bindings(&module("near_neighbor.frag:copy")).contains(&accumulated), "another pass samples it");
+}
+
+#[test]
+fn last_fused_pass_has_nothing_to_decide() {
+    let decides = |name: &str| module(name).spec_constants.iter().any(|(name, _)| name == "BLEND_ROUNDING");
+    assert!(decides("fused.frag:copy") && !decides("fused.frag:last") && !decides("fused.frag:last+discard"));
+}
+
+#[test]
 fn compute_shader_says_its_work_group() {
     let shader = module("structure/cell_range.comp");
     assert_eq!(shader.stage, vk::ShaderStageFlags::COMPUTE);
@@ -91,8 +107,11 @@ fn specialization_constants_have_their_names_and_ids() {
         ("LAST_PARTIAL", 5),
     ]);
     assert_eq!(constants("main_pass.frag:plain"), main);
-    let intermediate = named(&[("SAMPLES_PER_PASS", 0), ("EXIT_LOOKAHEAD", 6)]);
+    let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8)]);
+    let intermediate = [&main[..1], &skipping[..]].concat();
     assert_eq!(constants("near_neighbor.frag:fragdepth"), intermediate);
+    let fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 9)])[..]].concat();
+    assert_eq!(constants("fused.frag:fragdepth"), fused);
 }
 
 /// Which fragments a driver may cull before it runs the shader stands in three execution modes.
@@ -122,8 +141,8 @@ fn main_pass_is_culled_early_unless_it_discards() {
 }
 
 #[test]
-fn intermediate_passes_promise_what_their_mark_allows() {
-    for pass in ["termination", "block_skip", "near_neighbor"] {
+fn passes_that_mark_promise_what_their_mark_allows() {
+    for pass in ["termination", "block_skip", "near_neighbor", "fused"] {
         for (variant, expected) in [
             ("copy", EARLY),
             ("fragdepth", Depth { early: false, replacing: true, less: true }),
@@ -132,7 +151,14 @@ fn intermediate_passes_promise_what_their_mark_allows() {
             assert_eq!(depth(&module(&format!("{pass}.frag:{variant}"))), expected, "{pass} {variant}");
         }
     }
-    assert_eq!(depth(&module("near_neighbor.frag:copy+discard")), LATE);
+    for (name, expected) in [
+        ("near_neighbor.frag:copy+discard", LATE),
+        ("fused.frag:copy+discard", LATE),
+        ("fused.frag:last+discard", LATE),
+        ("fused.frag:last", EARLY),
+    ] {
+        assert_eq!(depth(&module(name)), expected, "{name}");
+    }
 }
 
 /// With early tests a written depth has no effect, and a discarded fragment has been counted already.

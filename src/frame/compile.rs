@@ -140,6 +140,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<
         let flags = usages.entry(access.resource).or_default();
         *flags |= match access.usage {
             Usage::Color => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            Usage::ColorInput => vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::INPUT_ATTACHMENT,
             Usage::DepthWrite | Usage::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
             Usage::CopySource => vk::ImageUsageFlags::TRANSFER_SRC,
             Usage::CopyTarget => vk::ImageUsageFlags::TRANSFER_DST,
@@ -255,10 +256,12 @@ impl Compiler<'_> {
             return Ok(known.clone());
         }
         let mut bound: Vec<(&str, Bound)> = Vec::new();
-        for access in step.accesses.iter().filter(|a| a.usage == Usage::Sampled) {
+        for access in step.accesses.iter().filter(|a| matches!(a.usage, Usage::Sampled | Usage::ColorInput)) {
             let resource = access.resource;
             let layout = access.usage.layout();
-            if resource == Resource::Frame {
+            if access.usage == Usage::ColorInput {
+                bound.push((resource.name(), Bound::Input(&self.targets[&resource])));
+            } else if resource == Resource::Frame {
                 bound.push((resource.name(), Bound::Uniform(&self.frame)));
             } else if let Some(buffer) = self.resident.buffer(resource) {
                 bound.push((resource.name(), Bound::Storage(buffer)));

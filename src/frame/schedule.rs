@@ -59,7 +59,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             let previous = last.insert(resource, usage);
             let before = layouts.get(&resource).copied().unwrap_or(vk::ImageLayout::UNDEFINED);
             let during = usage.layout();
-            if !is_attachment(usage) {
+            if !usage.is_attachment() {
                 if before != during {
                     let source = previous.map_or(Scope::default(), scope);
                     barriers.push(Barrier { resource, source, target: scope(usage), before, after: during });
@@ -85,7 +85,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             if attachments.iter().any(|a| a.role == Role::Depth && cleared(a)) {
                 here = join([here, scope(Usage::DepthWrite)]);
             }
-            let drawn = step.accesses.iter().filter(|a| is_attachment(a.usage)).map(|a| scope(a.usage));
+            let drawn = step.accesses.iter().filter(|a| a.usage.is_attachment()).map(|a| scope(a.usage));
             RenderPassInfo {
                 name: step.pass_name().to_owned(),
                 before: Dependency { source: join(step.accesses.iter().filter_map(earlier).map(scope)), target: here },
@@ -96,10 +96,6 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
         scheduled.push(Scheduled { barriers, render_pass, targets, layouts: layouts.clone() });
     }
     scheduled
-}
-
-fn is_attachment(usage: Usage) -> bool {
-    matches!(usage, Usage::Color | Usage::DepthWrite | Usage::DepthTest)
 }
 
 /// The first step that draws into a target clears it; the last one keeps it only where somebody still reads it.
@@ -120,7 +116,11 @@ fn attachment(
     Attachment {
         name: resource.name().to_owned(),
         format,
-        role: if resource.is_depth() { Role::Depth } else { Role::Color },
+        role: match usage {
+            _ if resource.is_depth() => Role::Depth,
+            Usage::ColorInput => Role::ColorInput,
+            _ => Role::Color,
+        },
         load: if first { vk::AttachmentLoadOp::CLEAR } else { vk::AttachmentLoadOp::LOAD },
         // A store, even of what only was tested, counts as a write.
         store: match (read_only, kept) {

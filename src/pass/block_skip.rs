@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, cull};
+use super::{Draw, Faces, Group, Step, Work, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
@@ -20,7 +20,7 @@ pub fn block_skip(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     ];
     let shader = format!("block_skip.frag:{}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
-    draw.constants = vec![("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)];
+    draw.constants.push(constants::samples(scene));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step { name: format!("block_skip #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
 }

@@ -94,6 +94,14 @@ pub fn cull_by_stored(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, b
     }
 }
 
+/// The depth test of marks that never fall. Those of the thesis' own form rise each time they are written.
+pub fn rising(mark: Mark) -> vk::CompareOp {
+    match mark {
+        Mark::FragdepthAny => vk::CompareOp::GREATER,
+        _ => vk::CompareOp::GREATER_OR_EQUAL,
+    }
+}
+
 /// Lets a step write its marks: into the depth buffer, or into a colour attachment that is copied there.
 /// `compare` is the depth test of the written depth against the stored one, where it is written directly.
 pub fn mark_into(draw: &mut Draw, accesses: &mut Vec<Access>, mark: Mark, compare: vk::CompareOp) {

@@ -4,7 +4,7 @@
 use super::resource::{Resource, Usage};
 use super::{Group, Step, Work};
 
-/// Copies the marks that the intermediate pass for main pass `pass` left.
+/// Copies the marks that decide who takes part in main pass `pass`.
 pub fn mark_copy(pass: u32) -> Step {
     Step {
         name: format!("mark_copy #{pass}"),

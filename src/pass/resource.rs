@@ -99,6 +99,8 @@ impl Resource {
 pub enum Usage {
     /// Drawn into; what was there stays where nothing is drawn.
     Color,
+    /// Drawn into, and a fragment reads what its own pixel held before.
+    ColorInput,
     DepthWrite,
     DepthTest,
     /// Read by the fragment shader.
@@ -124,13 +126,24 @@ impl Usage {
     }
 
     pub fn writes(self) -> bool {
-        matches!(self, Self::Color | Self::DepthWrite | Self::CopyTarget | Self::ComputeWrite)
+        matches!(self, Self::Color | Self::ColorInput | Self::DepthWrite | Self::CopyTarget | Self::ComputeWrite)
+    }
+
+    /// Whether what was there before counts for what the step does.
+    pub fn reads(self) -> bool {
+        !self.writes() || self == Self::ColorInput
+    }
+
+    /// Whether it is as an attachment of a render pass.
+    pub fn is_attachment(self) -> bool {
+        matches!(self, Self::Color | Self::ColorInput | Self::DepthWrite | Self::DepthTest)
     }
 
     /// The layout an image has meanwhile.
     pub fn layout(self) -> vk::ImageLayout {
         match self {
             Self::Color => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+            Self::ColorInput => vk::ImageLayout::GENERAL,
             Self::DepthWrite => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             Self::CopySource => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
@@ -147,6 +160,10 @@ impl Usage {
         let depth_tests = S::EARLY_FRAGMENT_TESTS | S::LATE_FRAGMENT_TESTS;
         match self {
             Self::Color => (S::COLOR_ATTACHMENT_OUTPUT, A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE),
+            Self::ColorInput => (
+                S::COLOR_ATTACHMENT_OUTPUT | S::FRAGMENT_SHADER,
+                A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE | A::INPUT_ATTACHMENT_READ,
+            ),
             Self::DepthWrite => (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ | A::DEPTH_STENCIL_ATTACHMENT_WRITE),
             Self::DepthTest => (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ),
             Self::Sampled => (S::FRAGMENT_SHADER, A::SHADER_READ),

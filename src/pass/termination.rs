@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, cull};
+use super::{Draw, Faces, Group, Step, Work, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
@@ -18,7 +18,7 @@ pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     ];
     let shader = format!("termination.frag:{}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::termination::termination);
-    draw.constants = vec![("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)];
+    draw.constants.push(constants::samples(scene));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step { name: format!("termination #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
 }

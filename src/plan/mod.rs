@@ -146,6 +146,9 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
     } else if !uses(Resource::Marks) {
         leave("marks image and copies to depth", "the intermediate pass writes depth itself".to_owned());
     }
+    if method.name.fused() {
+        leave("intermediate passes after the first", "main passes decide where rays go on".to_owned());
+    }
     if !uses(Resource::NearestDistance) {
         leave("distance structure", format!("{name} does not look ahead"));
     }

@@ -3,7 +3,7 @@
 use super::View;
 use crate::pass::cull::{Form, Mark};
 use crate::pass::{
-    Step, alive, block_skip, build, clear, direction, entry, main_pass, mark_copy, near_neighbor, termination,
+    Step, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy, near_neighbor, termination,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodName};
@@ -37,11 +37,19 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
             let first = u32::from(!method.block_first);
             switched(&mut steps, scene, passes, form, first, block_skip::block_skip);
         }
+        (name, Some(form)) if name.fused() => {
+            steps.push(clear::clear());
+            steps.push(near_neighbor::near_neighbor(scene, 0, passes, form));
+            for pass in 0..passes {
+                decided(&mut steps, pass, form);
+                steps.push(fused::fused(scene, pass, passes, form));
+            }
+        }
         (name, Some(form)) if name.distance().is_some() => {
             steps.push(clear::clear());
-            let decide = |scene: &Scene, pass, form| near_neighbor::near_neighbor(scene, pass, passes, form);
             for pass in 0..passes {
-                intermediate(&mut steps, scene, pass, form, decide);
+                steps.push(near_neighbor::near_neighbor(scene, pass, passes, form));
+                decided(&mut steps, pass, form);
                 let end = crate::reference::section::section_end(pass, passes) as f32;
                 steps.push(main_pass::main_pass(scene, pass, Some((form.cull, end))));
             }
@@ -66,22 +74,17 @@ fn switched(
     for pass in 0..passes {
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
-            intermediate(steps, scene, pass, form, decide);
+            steps.push(decide(scene, pass, form));
+            decided(steps, pass, form);
             culled = Some((form.cull, SWITCH));
         }
         steps.push(main_pass::main_pass(scene, pass, culled));
     }
 }
 
-/// An intermediate pass, its copy where marks go that way, and now and then the count of rays left.
-fn intermediate(
-    steps: &mut Vec<Step>,
-    scene: &Scene,
-    pass: u32,
-    form: Form,
-    decide: impl Fn(&Scene, u32, Form) -> Step,
-) {
-    steps.push(decide(scene, pass, form));
+/// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
+/// count of rays left.
+fn decided(steps: &mut Vec<Step>, pass: u32, form: Form) {
     if form.mark == Mark::Copy {
         steps.push(mark_copy::mark_copy(pass));
     }

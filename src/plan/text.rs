@@ -15,9 +15,9 @@ impl Plan {
 }
 
 fn line(step: &Step) -> String {
-    let names = |writes: bool| -> String {
-        let of = |a: &Access| a.usage.writes() == writes && a.usage != Usage::Vertices;
-        let names: Vec<_> = step.accesses.iter().filter(|a| of(a)).map(|a| a.resource.name()).collect();
+    let names = |chosen: fn(Usage) -> bool| -> String {
+        let of = |a: &&Access| chosen(a.usage) && a.usage != Usage::Vertices;
+        let names: Vec<_> = step.accesses.iter().filter(of).map(|a| a.resource.name()).collect();
         names.join(", ")
     };
     let (queue, detail) = match &step.work {
@@ -35,7 +35,7 @@ fn line(step: &Step) -> String {
         Work::Copy { .. } | Work::Clear(_) => ("transfer", String::new()),
         Work::Dispatch(_) | Work::Unpack { .. } => ("compute", String::new()),
     };
-    let (reads, writes) = (names(false), names(true));
+    let (reads, writes) = (names(Usage::reads), names(Usage::writes));
     let arrow = match (reads.is_empty(), writes.is_empty()) {
         (_, true) => reads,
         (true, false) => format!("-> {writes}"),

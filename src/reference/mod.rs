@@ -4,10 +4,12 @@ pub mod block_skip;
 pub mod direction;
 pub mod entry;
 pub mod exact;
+pub mod fused;
 pub mod main_pass;
 pub mod near_neighbor;
 pub mod samples;
 pub mod section;
+pub mod segment;
 pub mod termination;
 
 use glam::DVec3;

@@ -68,9 +68,14 @@ impl Twin<'_> {
 
     /// Whether the ray's opacity is above the threshold T; undecided where rounding may decide.
     pub fn saturated(&self, pixel: &mut Pixel) -> bool {
+        self.saturated_by(pixel, 0.0)
+    }
+
+    /// Whether it is above T by more than `margin`.
+    pub fn saturated_by(&self, pixel: &mut Pixel, margin: f64) -> bool {
         // The sum of up to some thousand rounded samples.
         const ROUNDING: f64 = 1e-5;
-        let threshold = self.scene.settings.sampling.termination;
+        let threshold = self.scene.settings.sampling.termination + margin;
         // Opacity never exceeds 1, so that at T = 1 there is nothing to decide.
         if threshold < 1.0 && pixel.accumulated[3] > 0.0 {
             pixel.undecided |= (pixel.accumulated[3] - threshold).abs() < ROUNDING;

@@ -22,6 +22,8 @@ pub enum Resource<'a> {
     Uniform(&'a Buffer),
     /// An image read and written texel by texel, in layout `GENERAL`.
     StorageImage(&'a Image),
+    /// An attachment of the pass of which a fragment reads its own pixel, in layout `GENERAL`.
+    Input(&'a Image),
 }
 
 /// A descriptor set in a pool of its own. Keeps its resources alive.
@@ -125,6 +127,7 @@ impl Resource<'_> {
             Resource::Storage(_) => vk::DescriptorType::STORAGE_BUFFER,
             Resource::Uniform(_) => vk::DescriptorType::UNIFORM_BUFFER,
             Resource::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
+            Resource::Input(_) => vk::DescriptorType::INPUT_ATTACHMENT,
         }
     }
 
@@ -134,7 +137,9 @@ impl Resource<'_> {
             Resource::Sampled(image, sampler, layout) => {
                 Some(info.image_view(image.view()).sampler(sampler.owned.raw).image_layout(*layout))
             }
-            Resource::StorageImage(image) => Some(info.image_view(image.view()).image_layout(vk::ImageLayout::GENERAL)),
+            Resource::StorageImage(image) | Resource::Input(image) => {
+                Some(info.image_view(image.view()).image_layout(vk::ImageLayout::GENERAL))
+            }
             Resource::Storage(_) | Resource::Uniform(_) => None,
         }
     }
@@ -144,7 +149,7 @@ impl Resource<'_> {
             Resource::Storage(buffer) | Resource::Uniform(buffer) => {
                 Some(vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(buffer.info.size))
             }
-            Resource::Sampled(..) | Resource::StorageImage(_) => None,
+            Resource::Sampled(..) | Resource::StorageImage(_) | Resource::Input(_) => None,
         }
     }
 
@@ -154,7 +159,7 @@ impl Resource<'_> {
                 kept.push(image.inner.clone());
                 kept.push(sampler.owned.clone());
             }
-            Resource::StorageImage(image) => kept.push(image.inner.clone()),
+            Resource::StorageImage(image) | Resource::Input(image) => kept.push(image.inner.clone()),
             Resource::Storage(buffer) | Resource::Uniform(buffer) => kept.push(buffer.inner.clone()),
         }
     }

@@ -17,7 +17,7 @@ pub struct Layout {
     pub bindings: Vec<Binding>,
     /// Bytes of the largest push constant block of the stages.
     pub push_constants: u32,
-    /// All stages; each sees every binding and the push constants.
+    /// All stages; each sees the push constants and every binding, but for input attachments, which only fragments have.
     pub stages: vk::ShaderStageFlags,
     pub(super) set: Arc<Owned<vk::DescriptorSetLayout>>,
     pub(super) owned: Arc<Owned<vk::PipelineLayout>>,
@@ -40,7 +40,10 @@ impl Layout {
                     .binding(one.binding)
                     .descriptor_type(one.kind)
                     .descriptor_count(one.count)
-                    .stage_flags(stages)
+                    .stage_flags(match one.kind {
+                        vk::DescriptorType::INPUT_ATTACHMENT => stages & vk::ShaderStageFlags::FRAGMENT,
+                        _ => stages,
+                    })
             })
             .collect();
         let create = vk::DescriptorSetLayoutCreateInfo::default().bindings(&described);

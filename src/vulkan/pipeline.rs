@@ -187,7 +187,7 @@ fn check_depth(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<()> {
 }
 
 fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::PipelineColorBlendAttachmentState>> {
-    let colors = info.render_pass.info.attachments.iter().filter(|one| one.role == Role::Color);
+    let colors = info.render_pass.info.attachments.iter().filter(|one| one.role.is_color());
     let over: Vec<_> = colors.map(|one| info.blend == Blend::Over && has_alpha(one.format)).collect();
     if over.windows(2).any(|pair| pair[0] != pair[1]) && device.features.independent_blend != vk::TRUE {
         return Err(Error::device(

@@ -166,14 +166,18 @@ impl<'a> Names<'a> {
             (StorageClass::UniformConstant, Op::TypeImage) if self.is_storage_image(kind) => {
                 vk::DescriptorType::STORAGE_IMAGE
             }
+            (StorageClass::UniformConstant, Op::TypeImage) if self.dimension(kind) == Some(Dim::DimSubpassData) => {
+                vk::DescriptorType::INPUT_ATTACHMENT
+            }
             (StorageClass::StorageBuffer, Op::TypeStruct) => vk::DescriptorType::STORAGE_BUFFER,
             (StorageClass::Uniform, Op::TypeStruct) if self.decoration(kind, Decoration::BufferBlock).is_some() => {
                 vk::DescriptorType::STORAGE_BUFFER
             }
             (StorageClass::Uniform, Op::TypeStruct) => vk::DescriptorType::UNIFORM_BUFFER,
             (_, other) => {
-                let problem =
-                    format!("{other:?} cannot be bound; use a combined sampler, a storage image or a buffer block");
+                let problem = format!(
+                    "{other:?} cannot be bound; use a combined sampler, a storage image, a subpass input or a buffer block"
+                );
                 return Err((name, problem));
             }
         };
@@ -186,9 +190,14 @@ impl<'a> Names<'a> {
 
     /// Operands of an image type: sampled type, dimension, depth, arrayed, multisampled, sampled (2: storage).
     fn is_storage_image(&self, id: u32) -> bool {
-        let operands = self.instructions.get(&id).map_or(&[][..], |one| &one.operands);
-        !matches!(operands.get(1), Some(Operand::Dim(Dim::DimBuffer | Dim::DimSubpassData)))
-            && operands.get(5) == Some(&Operand::LiteralBit32(2))
+        !matches!(self.dimension(id), Some(Dim::DimBuffer | Dim::DimSubpassData)) && self.number(id, 5) == Some(2)
+    }
+
+    fn dimension(&self, id: u32) -> Option<Dim> {
+        match self.instructions.get(&id)?.operands.get(1)? {
+            Operand::Dim(dimension) => Some(*dimension),
+            _ => None,
+        }
     }
 
     /// Bytes of a type with explicit layout, up to the end of its last member.

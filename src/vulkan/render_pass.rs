@@ -38,7 +38,17 @@ pub struct Dependency {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     Color,
+    /// Drawn into, and each fragment may read what its own pixel held before: an input attachment too. Its layout is
+    /// `GENERAL`, the one that allows both.
+    ColorInput,
     Depth,
+}
+
+impl Role {
+    /// Whether fragments write a colour there.
+    pub fn is_color(self) -> bool {
+        matches!(self, Self::Color | Self::ColorInput)
+    }
 }
 
 /// An image a pass draws into or tests against.
@@ -56,7 +66,11 @@ pub struct Attachment {
     pub after: vk::ImageLayout,
 }
 
-/// A pass of one subpass: at most one depth attachment, colour attachments in the order of their locations.
+/// A pass of one subpass: at most one depth attachment, colour attachments in the order of their locations, input
+/// attachments in the order of their indices.
+///
+/// Fragments of a pass must not cover each other where they read an input attachment: nothing orders one's read and
+/// another's write, while a fragment's own read comes before its write.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RenderPassInfo {
     pub name: String,
@@ -77,14 +91,20 @@ impl RenderPass {
     /// Two depth attachments, a role that does not fit its format, too many colour attachments.
     pub fn new(device: &Arc<Device>, info: RenderPassInfo) -> Result<Self> {
         check(device, &info)?;
-        let references = |role: Role| -> Vec<_> {
-            let all = info.attachments.iter().enumerate().filter(|(_, one)| one.role == role);
-            all.map(|(index, one)| vk::AttachmentReference2::default().attachment(index as u32).layout(one.during))
-                .collect()
+        let references = |roles: &[Role]| -> Vec<_> {
+            let all = info.attachments.iter().enumerate().filter(|(_, one)| roles.contains(&one.role));
+            let reference = |(index, one): (usize, &Attachment)| {
+                // The aspect counts for input attachments only.
+                let aspect = vk::ImageAspectFlags::COLOR;
+                vk::AttachmentReference2::default().attachment(index as u32).layout(one.during).aspect_mask(aspect)
+            };
+            all.map(reference).collect()
         };
-        let (color, depth) = (references(Role::Color), references(Role::Depth));
+        let color = references(&[Role::Color, Role::ColorInput]);
+        let (input, depth) = (references(&[Role::ColorInput]), references(&[Role::Depth]));
         let mut subpass = vk::SubpassDescription2::default()
             .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+            .input_attachments(&input)
             .color_attachments(&color);
         if let Some(depth) = depth.first() {
             subpass = subpass.depth_stencil_attachment(depth);
@@ -142,10 +162,23 @@ fn check(device: &Device, info: &RenderPassInfo) -> Result<()> {
     if count(Role::Depth) > 1 {
         return Err(misuse(&info.name, "has more than one depth attachment"));
     }
-    let limit = device.limits.max_color_attachments;
-    if count(Role::Color) > limit as usize {
-        let problem = format!("{} colour attachments, {} allows {limit}", count(Role::Color), device.info.name);
-        return Err(Error::device(&info.name, problem, "choose another device"));
+    let limits = &device.limits;
+    let (input, color) = (count(Role::ColorInput), count(Role::ColorInput) + count(Role::Color));
+    for (what, found, limit) in [
+        ("colour attachments", color, limits.max_color_attachments),
+        ("input attachments", input, limits.max_per_stage_descriptor_input_attachments),
+    ] {
+        if found > limit as usize {
+            let problem = format!("{found} {what}, {} allows {limit}", device.info.name);
+            return Err(Error::device(&info.name, problem, "choose another device"));
+        }
+    }
+    let general = |one: &&Attachment| one.during == vk::ImageLayout::GENERAL;
+    if let Some(one) = info.attachments.iter().filter(|one| one.role == Role::ColorInput).find(|one| !general(one)) {
+        return Err(misuse(
+            &info.name,
+            format!("{} is drawn into and read in {:?}, not GENERAL", one.name, one.during),
+        ));
     }
     match info.attachments.iter().find(|one| is_depth(one.format) != (one.role == Role::Depth)) {
         Some(one) => Err(misuse(&info.name, format!("{} is {:?} but has role {:?}", one.name, one.format, one.role))),

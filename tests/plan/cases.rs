@@ -40,6 +40,9 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni_bounds_copy", NnOmni, form(Bounds, Mark::Copy), false),
         ("nn-omni_ztest_copy", NnOmni, form(Ztest, Mark::Copy), false),
         ("nn-omni_discard_copy", NnOmni, form(Discard, Mark::Copy), false),
+        ("nn-omni+fused_bounds_fragdepth", NnOmniFused, form(Bounds, Fragdepth), false),
+        ("nn-omni+fused_ztest_copy", NnOmniFused, form(Ztest, Mark::Copy), false),
+        ("nn-omni+fused_discard_copy", NnOmniFused, form(Discard, Mark::Copy), false),
     ];
     rows.map(|(name, method, form, block_first)| {
         let mut settings = settings(method);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use depthleap::frame::{EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
+use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
 use depthleap::measure::runner::{Checked, Effort, Runner, law_of_skipping};
 use depthleap::pass::cull::{Form, Mark};
 use depthleap::plan::{self, papers_form};
@@ -14,6 +14,9 @@ use depthleap::vulkan::Device;
 
 use super::scenes::{Stage, VIEWS, by, checked, differing, exactly, forms, scene, seen};
 use crate::harness::{Need, Test, open, test};
+
+/// Methods that end rays early.
+const ENDING: [MethodName; 4] = [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused];
 
 const COPY: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Copy });
 
@@ -30,6 +33,8 @@ pub fn tests() -> Vec<Test> {
         test("accumulation_formats_differ_by_their_rounding", accumulation_formats_differ_by_their_rounding),
         test("holes_are_transparent", holes_are_transparent),
         test("omni_runs_fewer_fragments_than_blocks", omni_runs_fewer_fragments_than_blocks),
+        test("fused_passes_run_fewer_fragments", fused_passes_run_fewer_fragments),
+        test("every_distance_has_its_fused_form", every_distance_has_its_fused_form),
         test("runs_are_held_against_the_law_of_skipping", runs_are_held_against_the_law_of_skipping),
     ]
 }
@@ -70,7 +75,7 @@ fn deep() -> Scene {
 }
 
 fn dead_passes_are_not_run(device: &Arc<Device>) {
-    for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+    for method in ENDING {
         let shot = Stage::new(device).shoot(&by(&deep(), method), COPY);
         let counts = shot.run.fragments.expect("counts");
         // Opacity 0.5 a sample: above 0.95 after five samples.
@@ -86,7 +91,7 @@ fn dead_passes_are_not_run(device: &Arc<Device>) {
 fn ways_of_ending_agree(device: &Arc<Device>) {
     for scene in [deep(), scene("shells:32", "ramp", |s| s.sampling.samples_per_pass = 1)] {
         for view in VIEWS {
-            for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+            for method in ENDING {
                 let scene = by(&seen(&scene, view), method);
                 let shots = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
                     let mut stage = Stage::new(device);
@@ -115,13 +120,16 @@ fn one_queue_gives_the_same_picture(device: &Arc<Device>) {
 
 fn repeated_frames_are_the_same(device: &Arc<Device>) {
     let scene = scene("shells:32", "ramp", |_| {});
-    for form in forms(device, MethodName::NnOmni) {
-        let plan = plan::plan(&scene, form).expect("a plan");
+    let both = [MethodName::NnOmni, MethodName::NnOmniFused].map(|method| by(&scene, method));
+    for (scene, form) in
+        both.iter().flat_map(|s| forms(device, s.settings.method.name).into_iter().map(move |f| (s, f)))
+    {
+        let plan = plan::plan(scene, form).expect("a plan");
         let mut structures = Structures::default();
-        structures.prepare(&scene, &plan);
+        structures.prepare(scene, &plan);
         let mut resident = Resident::new(device);
-        resident.prepare(&scene, &plan, &structures).expect("room");
-        let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
+        resident.prepare(scene, &plan, &structures).expect("room");
+        let mut frame = GpuFrame::new(device, scene, &plan, &mut resident, None).expect("a frame");
         let mut take = || {
             frame.run(Measure::Nothing).expect("a frame");
             frame.picture().expect("a picture")
@@ -205,7 +213,7 @@ fn holes_are_transparent(device: &Arc<Device>) {
     let mut voxels = vec![1.0f32; 9 * 9 * 9];
     voxels[4 * 81 + 4 * 9 + 4] = f32::NAN;
     let volume = Volume::new("holed", [9; 3], [1.0; 3], Voxels::F32(voxels)).expect("a volume");
-    for method in [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+    for method in [MethodName::Rc].into_iter().chain(ENDING) {
         let mut scene = by(&scene("constant:9", "haze", exactly), method);
         scene.settings.sampling.last = Last::Partial;
         scene.field = Arc::new(Field::new(volume.clone(), Some([0.0, 1.0]), NanPolicy::Hole).expect("a field"));
@@ -233,6 +241,35 @@ fn omni_runs_fewer_fragments_than_blocks(device: &Arc<Device>) {
         let ideal = stage.twin(&by(&scene, MethodName::RcErt), papers_form(MethodName::RcErt)).ideal;
         assert!(sum(&omni.main) < sum(&block.main) && sum(&omni.intermediate) < sum(&block.intermediate) / 2);
         assert!(ideal <= sum(&omni.main), "ideal {ideal}, omni {}", sum(&omni.main));
+    }
+}
+
+/// A ray that goes on has one fragment a pass where two passes had one each. Only where a ray that jumped lands in free
+/// space again does a fused pass run without taking samples.
+fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
+    let sum = |list: &[u64]| list.iter().sum::<u64>();
+    for view in VIEWS {
+        let scene = seen(&scene("jets:64", "ramp", |_| {}), view);
+        let mut stage = Stage::new(device);
+        let [apart, fused] = [MethodName::NnOmni, MethodName::NnOmniFused]
+            .map(|method| stage.shoot(&by(&scene, method), COPY).run.fragments.expect("counts"));
+        assert_eq!(fused.intermediate[0], apart.intermediate[0], "{}: the first pass is the same", view.0);
+        assert_eq!(sum(&fused.intermediate[1..]), 0, "{}: others are merged", view.0);
+        let both = |counts: &Counts| sum(&counts.main) + sum(&counts.intermediate);
+        println!("{}: {} fragments, fused {}", view.0, both(&apart), both(&fused));
+        assert!(sum(&apart.main) <= sum(&fused.main), "{}", view.0);
+        assert!(both(&fused) < both(&apart), "{}: {} of {}", view.0, both(&fused), both(&apart));
+    }
+}
+
+fn every_distance_has_its_fused_form(device: &Arc<Device>) {
+    use MethodName::{NnConeFused, NnDirectionalFused, NnOptimalFused};
+    let scene = seen(&scene("shells:32", "ramp", |_| {}), VIEWS[1]);
+    let mut stage = Stage::new(device);
+    let rule = stage.shoot(&by(&scene, MethodName::RcErt), COPY).picture;
+    for method in [NnDirectionalFused, NnOptimalFused, NnConeFused] {
+        let shot = stage.shoot(&by(&scene, method), COPY);
+        assert_eq!(differing(&shot.picture, &rule), 0, "{}", method.name());
     }
 }
 

@@ -34,6 +34,9 @@ const SCENES: [(&str, &str); 12] = [
     ("ct_vismale.nrrd", "surface"),
 ];
 
+const METHODS: [MethodName; 5] =
+    [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused];
+
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
     for (volume, tf) in SCENES {
@@ -67,7 +70,7 @@ fn twin(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     let (mut largest, mut open, mut outline, mut pixels) = (0.0f64, 0, 0, 0);
     for view in VIEWS {
-        for method in [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+        for method in METHODS {
             let scene = by(&seen(scene, view), method);
             // The last form of each method is the one every device has.
             let form = forms(device, method).pop().flatten();
@@ -211,7 +214,7 @@ fn integral_error(device: &Arc<Device>, scene: &Scene) -> f64 {
 
 /// An eighth of a voxel: second order leaves 1/64 of what a whole voxel does (1e-2 here), rounding is far below.
 fn every_method_is_near_the_integral(device: &Arc<Device>) {
-    for method in [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni] {
+    for method in METHODS {
         let scene = scene("shells:24", "ramp", |s| smooth(s, 0.125));
         let error = integral_error(device, &by(&scene, method));
         println!("{}: {error:.1e}", method.name());

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use depthleap::glsl;
 use depthleap::vulkan::{
     Attachment, Blend, Buffer, BufferInfo, Commands, Dependency, DepthState, DescriptorSet, Device, Framebuffer,
-    GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, Region, RenderPass, RenderPassInfo, Role, Scope,
-    Shader, vk,
+    GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, Region, RenderPass, RenderPassInfo, Resource,
+    Role, Scope, Shader, vk,
 };
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, run, uploaded, words};
@@ -20,9 +20,10 @@ const FROM: vk::ImageLayout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
 fn attached() -> Scope {
     use vk::{AccessFlags2 as A, PipelineStageFlags2 as S};
     Scope::new(
-        S::COLOR_ATTACHMENT_OUTPUT | S::EARLY_FRAGMENT_TESTS | S::LATE_FRAGMENT_TESTS,
+        S::FRAGMENT_SHADER | S::COLOR_ATTACHMENT_OUTPUT | S::EARLY_FRAGMENT_TESTS | S::LATE_FRAGMENT_TESTS,
         A::COLOR_ATTACHMENT_READ
             | A::COLOR_ATTACHMENT_WRITE
+            | A::INPUT_ATTACHMENT_READ
             | A::DEPTH_STENCIL_ATTACHMENT_READ
             | A::DEPTH_STENCIL_ATTACHMENT_WRITE,
     )
@@ -52,6 +53,17 @@ pub fn pass_info() -> RenderPassInfo {
     }
 }
 
+/// The same, whose fragments read the colour they draw into.
+pub fn reading_pass_info() -> RenderPassInfo {
+    let mut info = pass_info();
+    let color = &mut info.attachments[0];
+    color.role = Role::ColorInput;
+    for layout in [&mut color.before, &mut color.during, &mut color.after] {
+        *layout = vk::ImageLayout::GENERAL;
+    }
+    info
+}
+
 pub struct Canvas {
     pub color: Image,
     pub depth: Image,
@@ -62,7 +74,12 @@ pub struct Canvas {
 
 impl Canvas {
     /// Transparent black, depth 0.
-    pub fn new(device: &Arc<Device>, [width, height]: [u32; 2]) -> Self {
+    pub fn new(device: &Arc<Device>, size: [u32; 2]) -> Self {
+        Self::of_pass(device, size, pass_info())
+    }
+
+    /// The same for a pass like that of [`pass_info`].
+    pub fn of_pass(device: &Arc<Device>, [width, height]: [u32; 2], pass: RenderPassInfo) -> Self {
         let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
         let image = |name: &str, format, usage| {
             let info = ImageInfo {
@@ -75,9 +92,10 @@ impl Canvas {
             };
             Image::new(device, info).unwrap()
         };
-        let color = image("color", vk::Format::R32G32B32A32_SFLOAT, vk::ImageUsageFlags::COLOR_ATTACHMENT);
+        let drawn_and_read = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::INPUT_ATTACHMENT;
+        let color = image("color", vk::Format::R32G32B32A32_SFLOAT, drawn_and_read);
         let depth = image("depth", vk::Format::D32_SFLOAT, vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT);
-        let pass = RenderPass::new(device, pass_info()).unwrap();
+        let pass = RenderPass::new(device, pass).unwrap();
         let framebuffer = Framebuffer::new(device, "canvas", &pass, &[&color, &depth], [width, height]).unwrap();
         // x, y, w in clip space, of a triangle that covers the square from -1 to 1.
         let corners: [[f32; 3]; 3] = [[-1.0, -1.0, 1.0], [3.0, -1.0, 1.0], [-1.0, 3.0, 1.0]];
@@ -87,9 +105,14 @@ impl Canvas {
         triangle.write(0, bytemuck::cast_slice(&corners)).unwrap();
         let canvas = Self { color, depth, pass, framebuffer, triangle };
         let pixels = (width * height) as usize;
-        canvas.fill(device, &canvas.color, COLOR_LAYOUT, &vec![0.0; 4 * pixels]);
+        canvas.fill(device, &canvas.color, canvas.color_layout(), &vec![0.0; 4 * pixels]);
         canvas.set_depth(device, &vec![0.0; pixels]);
         canvas
+    }
+
+    /// The layout the colour image has between passes.
+    fn color_layout(&self) -> vk::ImageLayout {
+        self.pass.info.attachments[0].after
     }
 
     /// Stored depths, row 0 first.
@@ -149,6 +172,12 @@ impl Canvas {
         self.with_state(device, &vertex, Some(&crate::shader::shader("vulkan/color.frag")), depth, blend)
     }
 
+    /// Paints one colour added to what was there.
+    pub fn adder(&self, device: &Arc<Device>, blend: Blend) -> depthleap::Result<GraphicsPipeline> {
+        let vertex = Shader::new("box.vert", &glsl::module("box.vert").unwrap()).unwrap();
+        self.with_state(device, &vertex, Some(&crate::shader::shader("vulkan/before.frag")), DepthState::OFF, blend)
+    }
+
     /// All of it.
     pub fn area(&self) -> vk::Rect2D {
         let [width, height] = self.framebuffer.extent;
@@ -164,7 +193,8 @@ impl Canvas {
         Stroke { color, depth, area }: Stroke,
         around: impl FnOnce(&mut Commands, &dyn Fn(&mut Commands)),
     ) {
-        let set = DescriptorSet::new(device, "none", &pipeline.layout, &[]).unwrap();
+        let before = [("before", Resource::Input(&self.color))];
+        let set = DescriptorSet::new(device, "what was there", &pipeline.layout, &before).unwrap();
         commands.begin_render_pass(&self.pass, &self.framebuffer, self.area(), &[]);
         commands.bind_graphics(pipeline, &set);
         commands.viewport(self.area(), [depth, depth]);
@@ -177,7 +207,7 @@ impl Canvas {
 
     /// Premultiplied RGBA of every pixel, row 0 first.
     pub fn colors(&self, device: &Arc<Device>) -> Vec<[f32; 4]> {
-        bytemuck::cast_slice(&self.texels(device, &self.color, COLOR_LAYOUT)).to_vec()
+        bytemuck::cast_slice(&self.texels(device, &self.color, self.color_layout())).to_vec()
     }
 
     pub fn depths(&self, device: &Arc<Device>) -> Vec<f32> {

@@ -6,7 +6,7 @@ use depthleap::vulkan::{
     Blend, Buffer, BufferInfo, DepthState, Device, Framebuffer, Kind, Place, QueryPool, RenderPass, Role, vk,
 };
 
-use super::canvas::{Canvas, Stroke, pass_info, rectangle};
+use super::canvas::{Canvas, Stroke, pass_info, reading_pass_info, rectangle};
 use super::kit::{misuse, refused, run};
 use crate::harness::{Need, Test, test, tests};
 
@@ -20,6 +20,8 @@ pub fn all() -> Vec<Test> {
         depth_test_without_depth_attachment_is_refused,
         colour_lands_inside_the_scissor,
         over_is_front_to_back,
+        fragments_read_what_they_blend_into,
+        colour_that_is_read_too_in_another_layout_is_refused,
         viewport_depth_is_stored_to_the_bit,
         occlusion_queries_count_every_sample,
         occlusion_queries_count_what_passes_the_depth_test,
@@ -115,6 +117,26 @@ fn over_is_front_to_back(device: &Arc<Device>) {
     });
     // Half of what lies behind an opacity of 1/2, and nothing of what lies behind that.
     assert_eq!(canvas.colors(device), [[0.25 + 0.5, 0.5, 0.75 + 0.25, 1.0]; 2]);
+}
+
+fn fragments_read_what_they_blend_into(device: &Arc<Device>) {
+    let canvas = Canvas::of_pass(device, [5, 3], reading_pass_info());
+    let pipeline = canvas.adder(device, Blend::Over).unwrap();
+    let half = Stroke { area: rectangle([0, 0], [2, 3]), ..stroke(&canvas) };
+    run(device, "add", |commands| {
+        for stroke in [stroke(&canvas), half] {
+            canvas.draw(device, commands, &pipeline, stroke, |c, draw| draw(c));
+        }
+    });
+    // First the paint itself; then, to the left, twice the paint under it.
+    let twice = PAINT.map(|c| c + 0.5 * (2.0 * c));
+    assert_eq!(canvas.colors(device), [[twice, twice, PAINT, PAINT, PAINT]; 3].concat());
+}
+
+fn colour_that_is_read_too_in_another_layout_is_refused(device: &Arc<Device>) {
+    let mut info = reading_pass_info();
+    info.attachments[0].during = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    refused(RenderPass::new(device, info), &["canvas pass", "color is drawn into and read in", "not GENERAL"]);
 }
 
 fn viewport_depth_is_stored_to_the_bit(device: &Arc<Device>) {

@@ -1,0 +1,73 @@
+// Main pass k of the fused forms of near-neighbor skipping [Thesis §5.7: "combining the intermediate and main shader
+// passes into one, except for the first pass"], for rays whose stored section begins at or before k: takes the segment's
+// samples and marks where the ray goes on.
+//
+// 1. A ray whose opacity was above T before this pass is dead: it takes no sample, so that the picture is the one of
+//    the passes apart, which test there too.
+// 2. A ray that jumped here may have landed in free space: it goes on without a sample.
+// 3. The others take M samples, and go on by what the intermediate pass k + 1 would decide at the next segment.
+//
+// RES is read and blended into at once: a fragment reads its own pixel, before its own blending, and front faces of a
+// convex box cover no pixel twice. What takes no sample blends (0, 0, 0, 0), which changes nothing.
+//
+// Departure: a ray is marked dead in the pass in which its opacity rises above T, where that is certain before the
+// blend unit has rounded it; the others are found at 1. in the pass that follows.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@variant fragdepth MARK_FRAGDEPTH
+//@variant fragdepth+holes MARK_FRAGDEPTH HOLES
+//@variant fragdepth-any MARK_FRAGDEPTH_ANY
+//@variant fragdepth-any+holes MARK_FRAGDEPTH_ANY HOLES
+//@variant copy MARK_COPY
+//@variant copy+holes MARK_COPY HOLES
+//@variant copy+discard MARK_COPY CULL_DISCARD
+//@variant copy+discard+holes MARK_COPY CULL_DISCARD HOLES
+//@variant last MARK_NONE
+//@variant last+holes MARK_NONE HOLES
+//@variant last+discard MARK_NONE CULL_DISCARD
+//@variant last+discard+holes MARK_NONE CULL_DISCARD HOLES
+
+// RES comes first.
+#define MARK_LOCATION 1
+
+#include "shared/frame.glsl"
+#include "shared/cull.glsl"
+#include "shared/mark.glsl"
+#include "shared/double_float.glsl"
+#include "shared/samples.glsl"
+#include "shared/section.glsl"
+#include "shared/near_neighbor.glsl"
+#include "shared/volume.glsl"
+#include "shared/transfer.glsl"
+#include "shared/opacity.glsl"
+#include "shared/segment.glsl"
+
+layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
+
+// More than the blend unit may take from an opacity (BLEND_ROUNDING in src/reference/fused.rs).
+layout(constant_id = 9) const float BLEND_ROUNDING = 0.0;
+
+layout(location = 0) out vec4 contribution;
+
+void main() {
+    float depth = DEAD;
+    vec4 segment = vec4(0.0);
+    bool runs = may_run();
+    if (runs) {
+        vec4 before = subpassLoad(accumulated);
+        if (before.a <= frame.termination) {
+            Ray ray = load_ray();
+            uint next = next_section(ray, this_step.pass);
+            if (next == this_step.pass) {
+                segment = segment_color(ray, this_step.pass);
+                bool saturated = composite(before, segment).a > frame.termination + BLEND_ROUNDING;
+                next = saturated ? frame.passes : next_section(ray, this_step.pass + 1u);
+            }
+            // Always ahead, so that depths rise.
+            depth = decision_depth(next, false);
+        }
+    }
+    DROP_UNLESS(runs);
+    MARK(depth);
+    contribution = segment;
+}

@@ -1,0 +1,46 @@
+//! Main pass of the fused forms of near-neighbor skipping: it samples and marks where the ray goes on [Thesis §5.7].
+
+use super::cull::{self, Form};
+use super::resource::{Resource, Usage};
+use super::{Draw, Faces, Group, Step, Work, constants};
+use crate::reference;
+use crate::reference::section::section_end;
+use crate::scene::Scene;
+use crate::scene::settings::Cull;
+
+/// Main pass `pass` of `passes`, for rays whose stored section begins at or before it. The last one has nothing left to
+/// decide and marks nothing.
+pub fn fused(scene: &Scene, pass: u32, passes: u32, form: Form) -> Step {
+    let mut accesses = vec![
+        Usage::Vertices.of(Resource::Box),
+        Usage::Sampled.of(Resource::Frame),
+        Usage::Sampled.of(Resource::Entry),
+        Usage::Sampled.of(Resource::Direction),
+        Usage::Sampled.of(Resource::NearestDistance),
+        Usage::Sampled.of(Resource::Volume),
+        Usage::Sampled.of(Resource::Transfer),
+        Usage::ColorInput.of(Resource::Accumulated),
+    ];
+    let marks = (pass + 1 < passes).then_some(form.mark);
+    let mut variant = vec![marks.map_or("last", |_| form.mark_variant())];
+    if form.cull == Cull::Discard {
+        variant.push("discard");
+    }
+    if scene.field.holes.is_some() {
+        variant.push("holes");
+        accesses.push(Usage::Sampled.of(Resource::Holes));
+    }
+    let shader = format!("fused.frag:{}", variant.join("+"));
+    let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
+    draw.blend = true;
+    draw.constants.push(constants::samples(scene));
+    draw.constants.extend(constants::segment(scene));
+    draw.constants.extend(constants::near_neighbor(scene));
+    let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
+    draw.constants.push(("BLEND_ROUNDING", rounding.to_bits()));
+    cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
+    if let Some(mark) = marks {
+        cull::mark_into(&mut draw, &mut accesses, mark, cull::rising(mark));
+    }
+    Step { name: format!("fused #{pass}"), group: Group::Main, pass, accesses, work: Work::Draw(draw) }
+}

@@ -1,0 +1,33 @@
+//! Twin of `glsl/fused.frag`: a main pass that marks where the ray goes on [Thesis §5.7].
+
+use super::{Effect, Pixel, Twin};
+use crate::math::opacity::composite;
+use crate::scene::settings::Accumulate;
+
+/// More than a blend unit may take from an opacity below 1, or add to it, in a target of that format: some sixteen
+/// units in the last place of an f32, eight of an f16, four of a byte. It rounds the source, the product and the sum,
+/// to nearest or not.
+pub fn blend_rounding(accumulate: Accumulate) -> f32 {
+    match accumulate {
+        Accumulate::Rgba32f => f32::exp2(-20.0),
+        Accumulate::Rgba16f => f32::exp2(-8.0),
+        Accumulate::Rgba8 => f32::exp2(-6.0),
+    }
+}
+
+/// Puts the segment of main pass `pass` under what the pixel has already, where the ray has work there, and marks the
+/// section in which it next has, or death.
+pub fn fused(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let mut next = if twin.saturated(pixel) { twin.passes } else { twin.next_section(pixel, pass) };
+    let mut effect = Effect::Silent;
+    if next == pass {
+        let (segment, found) = twin.segment_color(pixel, pass);
+        effect = found;
+        pixel.accumulated = composite(pixel.accumulated, segment);
+        let certain = f64::from(blend_rounding(twin.scene.settings.image.accumulate));
+        let dead = twin.saturated_by(pixel, certain);
+        next = if dead { twin.passes } else { twin.next_section(pixel, pass + 1) };
+    }
+    pixel.stored = twin.decision_depth(next);
+    effect
+}

@@ -1,0 +1,65 @@
+//! Twin of `glsl/shared/segment.glsl`: M samples of a ray, front to back [KW03 §2.1].
+
+use glam::DVec3;
+
+use super::{Effect, Pixel, Twin};
+use crate::math::interpolate::trilinear;
+use crate::math::opacity::{composite, corrected_opacity};
+use crate::scene::settings::{Alpha, Last};
+
+/// Three interpolations of values about 1 round to a few units of 2^-24.
+const VALUE_ROUNDING: f64 = 3e-7;
+
+/// Places are good to 2^-22 voxels on each axis, over which the value changes by that share of the spread of its cell.
+const PLACE_ROUNDING: f64 = 1e-6;
+
+impl Twin<'_> {
+    /// Premultiplied colour of sample `i`.
+    fn shade_sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        let (field, transfer, sampling) = (&self.scene.field, &self.scene.transfer, &self.scene.settings.sampling);
+        let voxel = self.voxel(self.sample_position(pixel, i));
+        if let Some(holes) = &field.holes {
+            let ([nx, ny, _], [x, y, z]) = (field.cells(), field.cell_at(voxel));
+            if holes[(z * ny + y) * nx + x] {
+                return [0.0; 4];
+            }
+        }
+        let value = trilinear(&field.values, field.dims(), voxel);
+        pixel.undecided |= transfer.jumps().any(|x| self.may_cross(x, value, voxel));
+        let [r, g, b, a] = transfer.evaluate(value);
+        let steps = match sampling.last {
+            Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
+            _ => 1.0,
+        };
+        let alpha = match sampling.alpha {
+            Alpha::Exponential => corrected_opacity(a, steps * sampling.step / transfer.reference),
+            Alpha::Paper => (a * steps).min(1.0),
+        };
+        [r * alpha, g * alpha, b * alpha, alpha]
+    }
+
+    /// Whether f32 may have a `value` interpolated at `voxel` on the other side of a `jump`.
+    fn may_cross(&self, jump: f64, value: f64, voxel: DVec3) -> bool {
+        let off = (value - jump).abs();
+        let field = &self.scene.field;
+        let corners = field.corners(field.cell_at(voxel)).map(|c| f64::from(field.values[c]));
+        let spread =
+            corners.into_iter().fold(f64::NEG_INFINITY, f64::max) - corners.into_iter().fold(f64::INFINITY, f64::min);
+        off < VALUE_ROUNDING * value.abs() + PLACE_ROUNDING * spread
+    }
+
+    /// Premultiplied colour of the ray's segment for main pass `pass`, and whether it took a sample that shows.
+    pub fn segment_color(&self, pixel: &mut Pixel, pass: u32) -> ([f64; 4], Effect) {
+        let (first, end) = self.segment(pixel, pass);
+        let mut segment = [0.0; 4];
+        let mut effect = Effect::Silent;
+        for i in first..end {
+            let sample = self.shade_sample(pixel, i);
+            if sample[3] > 0.0 {
+                effect = Effect::Contributed;
+            }
+            segment = composite(segment, sample);
+        }
+        (segment, effect)
+    }
+}
