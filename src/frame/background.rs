@@ -101,13 +101,12 @@ impl Background {
             }
             self.coming = Some(Coming { frame: ahead, begun: frame, pending });
         }
+        let Some(coming) = self.coming.as_mut().filter(|_| !self.device.separate_compute()) else { return Ok(0.0) };
         let begin = Instant::now();
-        if let Some(coming) = self.coming.as_mut().filter(|_| !self.device.separate_compute()) {
-            let job = &mut coming.pending.job;
-            job.advance(job.slices().div_ceil(FRAMES - 1), &[])?;
-            if let Some(last) = job.last() {
-                last.wait()?;
-            }
+        let job = &mut coming.pending.job;
+        job.advance(job.slices().div_ceil(FRAMES - 1), &[])?;
+        if let Some(last) = job.last() {
+            last.wait()?;
         }
         Ok(begin.elapsed().as_secs_f64() * 1e3)
     }

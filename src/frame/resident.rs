@@ -67,6 +67,19 @@ impl Resident {
         self.distances.get(lookup)
     }
 
+    /// The distances as the device has them, a byte a cell and octant; none where they were not built.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn read_distances(&self, lookup: &Lookup) -> Result<Option<Vec<u8>>> {
+        self.distance(lookup).map(|image| upload::read_sampled(&self.device, image)).transpose()
+    }
+
+    /// Whether the ranges of cells of that side are there, which depend on the volume alone.
+    pub fn ranges_are_there(&self, cell: u32) -> bool {
+        self.distances.ranges(cell).is_some()
+    }
+
     /// Forgets what depends on the transfer function: the next plan's scene may have another one.
     pub fn forget_transfer(&mut self) {
         self.buffers.remove(&Resource::Transfer);

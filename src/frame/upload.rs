@@ -54,13 +54,13 @@ pub fn read_back(
     area: Region,
     layout: vk::ImageLayout,
 ) -> Result<(Vec<u8>, vk::Format)> {
-    let [width, height, _] = image.info.extent;
-    let texel = image.bytes() / (u64::from(width) * u64::from(height));
+    let count = |extent: [u32; 3]| extent.into_iter().map(u64::from).product::<u64>();
+    let texel = image.bytes() / count(image.info.extent);
     let buffer = Buffer::new(
         device,
         BufferInfo {
             name: format!("{} read back", image.info.name),
-            size: u64::from(area.extent[0]) * u64::from(area.extent[1]) * texel,
+            size: count(area.extent) * texel,
             usage: vk::BufferUsageFlags::TRANSFER_DST,
             place: Place::Readback,
         },
@@ -71,6 +71,19 @@ pub fn read_back(
     commands.copy_image_to_buffer(image, &buffer, area);
     finish(device, commands)?;
     Ok((buffer.read()?, image.info.format))
+}
+
+/// All texels of an image that shaders read, and go on to read.
+///
+/// # Errors
+/// When memory is short.
+pub fn read_sampled(device: &Arc<Device>, image: &Image) -> Result<Vec<u8>> {
+    let sampled = Usage::Sampled.layout();
+    let (texels, _) = read_back(device, image, Region::whole(image), sampled)?;
+    let mut commands = Commands::begin(device, &device.graphics, "read back")?;
+    commands.image_barrier(image, COPY_READ, scope(Usage::Sampled), vk::ImageLayout::TRANSFER_SRC_OPTIMAL, sampled);
+    finish(device, commands)?;
+    Ok(texels)
 }
 
 /// Texels of an accumulation format as f32.

@@ -6,13 +6,14 @@ mod formulas;
 mod frame;
 mod harness;
 mod shader;
+mod structure;
 mod vulkan;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     harness::run(
-        [data::tests(), formulas::tests(), vulkan::tests(), frame::tests(), cli::tests()]
+        [data::tests(), formulas::tests(), vulkan::tests(), structure::tests(), frame::tests(), cli::tests()]
             .into_iter()
             .flatten()
             .collect(),

@@ -56,6 +56,7 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         left_out: vec![LeftOut { what: "depth_peel".into(), why: "no translucent polygons".into() }],
         plan: vec![" 1 ray_setup".into(), " 2 main_pass #0".into()],
         notes: vec!["software driver".into()],
+        orbit: None,
         settings: Settings::default(),
     }
 }

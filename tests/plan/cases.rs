@@ -40,6 +40,9 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni_bounds_copy", NnOmni, form(Bounds, Mark::Copy), false),
         ("nn-omni_ztest_copy", NnOmni, form(Ztest, Mark::Copy), false),
         ("nn-omni_discard_copy", NnOmni, form(Discard, Mark::Copy), false),
+        ("nn-omni_ztest_copy_cell-4", NnOmni, form(Ztest, Mark::Copy), false),
+        ("nn-directional_ztest_copy", NnDirectional, form(Ztest, Mark::Copy), false),
+        ("nn-optimal_ztest_copy", NnOptimal, form(Ztest, Mark::Copy), false),
         ("nn-omni+fused_bounds_fragdepth", NnOmniFused, form(Bounds, Fragdepth), false),
         ("nn-omni+fused_ztest_copy", NnOmniFused, form(Ztest, Mark::Copy), false),
         ("nn-omni+fused_discard_copy", NnOmniFused, form(Discard, Mark::Copy), false),
@@ -47,6 +50,7 @@ pub fn cases() -> Vec<Case> {
     rows.map(|(name, method, form, block_first)| {
         let mut settings = settings(method);
         settings.method.block_first = block_first;
+        settings.method.cell = if name.ends_with("cell-4") { 4 } else { 1 };
         Case { name, plan: plan(&scene(&settings), form).unwrap() }
     })
     .into()

@@ -34,7 +34,7 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
         let boxes = grid.cells.map(|n| n.div_ceil(scale));
         let slice = Slice { cell: scale as u32, ..slice(grid, words_of_bytes(boxes)) };
         // Some dozen steps along a ray for each of four boxes.
-        steps.push(dispatch(format!("bundle #{scale}"), shader, &reads, &[("distance_bytes", to)], slice, 64));
+        steps.push(dispatch(format!("bundle.{scale}"), shader, &reads, &[("distance_bytes", to)], slice, 64));
         larger = Some(to);
     }
     steps.push(unpack(Resource::NearestDistance));

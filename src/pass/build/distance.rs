@@ -35,7 +35,7 @@ pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
 /// `directional`: the octants share the scans along x and y where they go the same way.
 pub fn directional(grid: &Grid) -> Vec<Step> {
     let mut steps = Vec::new();
-    let name = |axis: &str, octant: usize| format!("distance_{axis} #{octant}");
+    let name = |axis: &str, octant: usize| format!("distance_{axis}.{octant}");
     for x in 0..2 {
         steps.push(first_axis(grid, name("x", x), "one", Resource::Squares, x));
         for xy in [x, x | 2] {

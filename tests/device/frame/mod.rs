@@ -3,11 +3,16 @@
 
 mod features;
 mod law;
-mod scenes;
+mod orbit;
+pub mod scenes;
 mod truth;
 
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    [law::tests(), truth::tests(), features::tests()].into_iter().flatten().map(|test| test.within("frame")).collect()
+    [law::tests(), orbit::tests(), truth::tests(), features::tests()]
+        .into_iter()
+        .flatten()
+        .map(|test| test.within("frame"))
+        .collect()
 }

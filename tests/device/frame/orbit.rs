@@ -1,0 +1,140 @@
+//! A camera that goes around each volume: no structure changes the picture, tighter ones run fewer fragments, and none
+//! goes below the lower bound.
+
+use std::sync::Arc;
+
+use depthleap::measure::runner::{Checked, Runner};
+use depthleap::plan::papers_form;
+use depthleap::scene::Scene;
+use depthleap::scene::settings::{MethodName, MethodSettings};
+use depthleap::vulkan::Device;
+
+use super::scenes::{Stage, by, checked, differing, forms, scene};
+use crate::harness::{Need, Test, test};
+
+/// Views of an orbit.
+const VIEWS: usize = 12;
+
+/// Volume, transfer function, side of the cells: larger ones for large volumes, whose structures take seconds for each
+/// view otherwise (the law of skipping is held for small cells besides).
+const VOLUMES: [(&str, &str, u32); 20] = [
+    ("shells:40", "ramp", 1),
+    ("blocks:48", "surface", 1),
+    ("jets:40x48x56", "ramp", 1),
+    ("shells:64x64x1", "ramp", 1),
+    ("fuel.nrrd", "ramp", 1),
+    ("nucleon.nrrd", "ramp", 1),
+    ("neghip.nrrd", "ramp", 1),
+    ("buckyball.nrrd", "surface", 1),
+    ("silicium.nrrd", "ramp", 1),
+    ("ironprot.nrrd", "ramp", 1),
+    ("marschner_lobb.nrrd", "surface", 1),
+    ("foot_cadaver.nrrd", "ramp", 2),
+    ("mra_tof.nrrd", "ramp", 2),
+    ("mri_colin27.nrrd", "surface", 4),
+    ("ct_head.nrrd", "ramp", 4),
+    ("ct_vismale.nrrd", "ramp", 4),
+    ("engine.nrrd", "ramp", 4),
+    ("engine_256cube.nrrd", "ramp", 4),
+    ("aneurism.nrrd", "ramp", 4),
+    ("mri_head.nrrd", "ramp", 4),
+];
+
+/// From the loosest to the tightest, and the fused ones.
+const METHODS: [MethodName; 8] = [
+    MethodName::NnOmni,
+    MethodName::NnCone,
+    MethodName::NnDirectional,
+    MethodName::NnOptimal,
+    MethodName::NnOmniFused,
+    MethodName::NnConeFused,
+    MethodName::NnDirectionalFused,
+    MethodName::NnOptimalFused,
+];
+
+pub fn tests() -> Vec<Test> {
+    let mut tests = Vec::new();
+    for (volume, tf, cell) in VOLUMES {
+        let mut one = test(&format!("orbit::{volume}::{tf}"), move |device| {
+            let scene = scene(volume, tf, |s| {
+                s.method.cell = cell;
+                s.image.size = [64, 52];
+            });
+            orbit(device, &scene);
+        });
+        if volume.ends_with(".nrrd") {
+            one = one.needs(Need::Data(volume));
+        }
+        tests.push(one);
+    }
+    tests.push(test("orbit::structures_are_built_beside_the_frames", structures_are_built_beside_the_frames));
+    tests
+}
+
+fn orbit(device: &Arc<Device>, scene: &Scene) {
+    let mut stage = Stage::new(device);
+    for view in 0..VIEWS {
+        let degrees = 360.0 * view as f64 / VIEWS as f64;
+        let mut scene = scene.clone();
+        // Not head-on to any face.
+        scene.settings.camera.eye = [0.21, 0.6, 1.8];
+        scene.camera = (&scene.settings.camera).into();
+        scene.camera = scene.camera.turned(degrees);
+        scene.settings.camera.eye = scene.camera.eye.to_array();
+        let ert = by(&scene, MethodName::RcErt);
+        let rule = stage.shoot(&ert, papers_form(MethodName::RcErt));
+        let twin = stage.twin(&ert, papers_form(MethodName::RcErt));
+        // Where f32 decides what f64 does not, a segment may contribute on one side only.
+        let undecided = twin.undecided.iter().filter(|u| **u).count() as u64 * u64::from(rule.plan.passes);
+        let sum = |counts: &[u64]| counts.iter().sum::<u64>();
+        let ert_main = sum(&rule.run.fragments.as_ref().expect("counts").main);
+        let mut main = Vec::new();
+        for method in METHODS {
+            // The last form is one that every driver has and gets right.
+            let form = forms(device, method).into_iter().last().flatten();
+            let shot = stage.shoot(&by(&scene, method), form);
+            let differs = differing(&shot.picture, &rule.picture);
+            assert_eq!(differs, 0, "{}, {degrees} degrees: {differs} pixels are not those of rc-ert", method.name());
+            main.push(sum(&shot.run.fragments.expect("counts").main));
+        }
+        let [omni, cone, directional, optimal, ..] = main[..] else { unreachable!("eight methods") };
+        let order = format!(
+            "{degrees} degrees: ideal {} optimal {optimal} directional {directional} cone {cone} omni {omni} rc-ert {ert_main}",
+            twin.ideal
+        );
+        assert!(twin.ideal <= optimal + undecided, "{order}");
+        assert!(optimal <= directional && directional <= omni && omni <= ert_main, "{order}");
+        assert!(optimal <= cone && cone <= omni, "{order}");
+    }
+}
+
+/// The scheduler of `bench --orbit`: every method's pictures are alike, frame by frame, structures of views are used at
+/// an age at which they serve, and builds go on between frames.
+fn structures_are_built_beside_the_frames(device: &Arc<Device>) {
+    const FRAMES: usize = 48;
+    let scene = scene("jets:40", "ramp", |s| {
+        s.image.size = [48, 40];
+        s.method.build = depthleap::scene::settings::Builder::Device;
+    });
+    let check = checked(device).clone();
+    let checked = Checked { device: device.clone(), check, early_end: None };
+    let mut runner = Runner::new(Some(&checked), scene.clone(), "jets".to_owned());
+    let settings = |name| MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
+    let rule = runner.orbit(&settings(MethodName::RcErt), FRAMES, &|_| {}).expect("an orbit");
+    assert!(rule.frames.iter().all(|frame| frame.structure.is_none() && frame.build_ms == 0.0));
+    for (name, own) in [(MethodName::NnOptimal, "optimal"), (MethodName::NnCone, "cone"), (MethodName::NnOmni, "omni")]
+    {
+        let orbit = runner.orbit(&settings(name), FRAMES, &|_| {}).expect("an orbit");
+        assert_eq!(orbit.pictures, rule.pictures, "{own}");
+        let used: Vec<_> = orbit.frames.iter().filter(|frame| frame.structure.as_deref() == Some(own)).collect();
+        assert!(used.len() >= 3, "{own} was used {} times in {FRAMES} frames", used.len());
+        assert!(orbit.frames[0].structure.as_deref() == Some("omni"), "nothing is made for the first view");
+        match own {
+            // Made for one view, and used for that view.
+            "optimal" => assert!(used.iter().all(|frame| frame.age == Some(0))),
+            // Good for cameras nearby.
+            "cone" => assert!(used.iter().any(|frame| frame.age != Some(0)) && used.len() > FRAMES / 2),
+            _ => assert!(used.iter().all(|frame| frame.age.is_none())),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Distances built by compute shaders are those of the host, voxel for voxel; what is built again when something
+//! changes, and what is not.
+
+use std::sync::Arc;
+
+use depthleap::frame::{Resident, Structures};
+use depthleap::plan::{papers_form, plan};
+use depthleap::read;
+use depthleap::scene::field::NanPolicy;
+use depthleap::scene::settings::{CELLS, MethodName, Settings, VolumeTexture};
+use depthleap::scene::volume::Voxels;
+use depthleap::scene::{Field, Scene, TransferFunction, Volume};
+use depthleap::vulkan::Device;
+
+use crate::frame::scenes::{VIEWS, by, seen};
+use crate::harness::{Need, Test, data, test};
+
+const METHODS: [MethodName; 4] =
+    [MethodName::NnOmni, MethodName::NnDirectional, MethodName::NnOptimal, MethodName::NnCone];
+
+/// Built-in volumes: sizes that fill no word, one voxel thick, longer than a distance can be, in the type's own units.
+const BUILT_IN: [(&str, &str); 8] = [
+    ("shells:48", "ramp"),
+    ("blocks:37x41x29", "surface"),
+    ("jets:33x65x30", "ramp"),
+    ("marschner-lobb:20", "haze"),
+    ("shells:64x64x1", "ramp"),
+    ("jets:1x40x1", "linear"),
+    ("blocks:600x5x4", "surface"),
+    ("constant:1", "linear"),
+];
+
+pub fn tests() -> Vec<Test> {
+    let mut tests: Vec<Test> = BUILT_IN
+        .into_iter()
+        .map(|(volume, tf)| {
+            test(&format!("device_and_host_agree::{volume}::{tf}"), move |device| {
+                agree(device, &built_in(volume, tf, |_| {}));
+            })
+        })
+        .collect();
+    for texture in [VolumeTexture::R16, VolumeTexture::R32f] {
+        let run =
+            move |device: &Arc<Device>| agree(device, &built_in("shells:30", "ramp", |s| s.volume.texture = texture));
+        tests.push(test(&format!("device_and_host_agree::{texture:?}"), run));
+    }
+    for (name, tf) in [("fuel.nrrd", "ramp"), ("nucleon.nrrd", "linear"), ("mra_tof.nrrd", "ramp")] {
+        let run = move |device: &Arc<Device>| {
+            let mut settings = Settings::default();
+            settings.volume.path = Some(data(name));
+            settings.transfer.preset = Some(tf.to_owned());
+            agree(device, &read::scene(&settings).expect("a sound scene"));
+        };
+        tests.push(test(&format!("device_and_host_agree::{name}"), run).needs(Need::Data(name)));
+    }
+    tests.push(test("device_and_host_agree::spacings_and_holes", spacings_and_holes));
+    tests.push(test("device_and_host_agree::nothing_and_all_interesting", nothing_and_all_interesting));
+    tests.push(test("another_transfer_function_keeps_the_ranges", another_transfer_function_keeps_the_ranges));
+    tests.into_iter().map(|test| test.within("structure")).collect()
+}
+
+fn built_in(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some(volume.to_owned());
+    settings.transfer.preset = Some(tf.to_owned());
+    change(&mut settings);
+    read::scene(&settings).expect("a sound scene")
+}
+
+/// Every kind of distance, from two views and from within, in cells of every size.
+fn agree(device: &Arc<Device>, scene: &Scene) {
+    let mut resident = Resident::new(device);
+    let large = scene.field.dims().iter().product::<usize>() > 1 << 20;
+    for cell in CELLS.into_iter().filter(|cell| !large || *cell > 1) {
+        for view in [VIEWS[0], VIEWS[1], VIEWS[2]] {
+            for method in METHODS {
+                let mut scene = by(&seen(scene, view), method);
+                scene.settings.method.cell = cell;
+                let plan = plan(&scene, papers_form(method)).expect("a plan");
+                let Some(lookup) = plan.distance else { continue };
+                resident.prepare(&scene, &plan, &Structures::default()).expect("room on the device");
+                let found = resident.read_distances(&lookup).expect("a copy").expect("distances were built");
+                let mut host = Structures::default();
+                host.prepare(&scene, &plan);
+                let expected = &host.distance(&lookup).expect("distances were built").value;
+                let name = format!("{}, cell {cell}, {}", method.name(), view.0);
+                assert_eq!(found.len(), expected.distances.len(), "{name}");
+                let differing = found.iter().zip(&expected.distances).filter(|(a, b)| a != b).count();
+                let first = found.iter().zip(&expected.distances).position(|(a, b)| a != b);
+                let pair = first.map(|i| (i, found[i], expected.distances[i]));
+                assert_eq!(differing, 0, "{name}: of {} distances, the first: {pair:?}", found.len());
+            }
+        }
+    }
+}
+
+fn spacings_and_holes(device: &Arc<Device>) {
+    let dims = [23, 18, 31];
+    for (spacing, policy) in [
+        ([1.0, 2.5, 1.7], NanPolicy::Replace),
+        ([2000.0, 1.0, 1.0], NanPolicy::Replace),
+        ([0.3, 0.3, 0.9], NanPolicy::Hole),
+    ] {
+        let value = |i: usize| match i * 7919 % 997 {
+            0..3 => 0.9,
+            3 => f32::NAN,
+            other => other as f32 * 2e-4,
+        };
+        let values = (0..dims.iter().product()).map(value).collect();
+        let volume = Volume::new("dots", dims, spacing, Voxels::F32(values)).expect("a sound volume");
+        let mut scene = built_in("constant:2", "ramp", |_| {});
+        scene.field = Arc::new(Field::new(volume, Some([0.0, 1.0]), policy).expect("a sound field"));
+        agree(device, &scene);
+    }
+}
+
+fn nothing_and_all_interesting(device: &Arc<Device>) {
+    let invisible = TransferFunction::new("invisible", Vec::new(), 1.0);
+    let mut scene = built_in("shells:33", "haze", |_| {});
+    agree(device, &scene);
+    if let Ok(invisible) = invisible {
+        scene.transfer = invisible;
+        agree(device, &scene);
+    }
+}
+
+/// What depends on the volume alone stays, and distances are those of the new function.
+fn another_transfer_function_keeps_the_ranges(device: &Arc<Device>) {
+    let mut scene = by(&built_in("shells:48", "ramp", |s| s.method.cell = 4), MethodName::NnOmni);
+    let mut resident = Resident::new(device);
+    let plan = plan(&scene, papers_form(MethodName::NnOmni)).expect("a plan");
+    let lookup = plan.distance.expect("distances");
+    let mut found = Vec::new();
+    for tf in ["ramp", "haze", "ramp"] {
+        scene.transfer = TransferFunction::preset(tf, 1.0).expect("built in").expect("sound");
+        resident.forget_transfer();
+        assert!(resident.distance(&lookup).is_none());
+        assert_eq!(resident.ranges_are_there(4), !found.is_empty(), "ranges do not depend on the function");
+        resident.prepare(&scene, &plan, &Structures::default()).expect("room on the device");
+        found.push(resident.read_distances(&lookup).expect("a copy").expect("distances"));
+    }
+    assert_eq!(found[0], found[2]);
+    assert_ne!(found[0], found[1]);
+}
