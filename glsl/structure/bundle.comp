@@ -25,7 +25,10 @@ layout(set = 0, binding = 0, std140) uniform Bundle {
 
 // Distance in any direction, whole voxels.
 layout(set = 0, binding = 10) uniform usampler3D omni_distance;
-// Any interesting cell among 2^3, and 4^3, from each cell on.
+// Interesting cells, and any among 2^3, and 4^3, from each cell on.
+layout(set = 0, binding = 11, std430) readonly buffer Interesting {
+    uint words[];
+} interesting;
 layout(set = 0, binding = 12, std430) readonly buffer Wide2 {
     uint words[];
 } wide_2;
@@ -47,6 +50,14 @@ const float MARGIN = 1.0 / 512.0;
 // Steps before the search ends where it is.
 const uint STEPS = 1024u;
 const uint FAR = 255u;
+// More than any distance that is told apart, in voxels.
+const float BEYOND = 257.0;
+// So many voxels, known of the larger box, are not searched for more.
+const uint ENOUGH = 32u;
+// Cells along the side of the largest window whose cells are looked at one by one.
+const int WINDOW = 5;
+// A direction that changes a coordinate by less than this in a voxel bounds nothing.
+const float ALONG = 1e-6;
 // How much wider the cones of boxes of several cells are, and how far from the eye that is enough; in half diagonals.
 const float WIDER = 3.0;
 const float AWAY = 3.0;
@@ -83,10 +94,35 @@ ivec3 cell_of(vec3 place) {
     return ivec3(clamp(floor(quotient), vec3(0.0), vec3(cells() - 1)));
 }
 
+uint word_of(ivec3 at) {
+    return uint(at.z * cells().y + at.y) * words(slice.cells_x) + uint(at.x >> 5);
+}
+
 bool wide_at(ivec3 at, bool four) {
-    uint word = uint(at.z * cells().y + at.y) * words(slice.cells_x) + uint(at.x >> 5);
-    uint bits = four ? wide_4.words[word] : wide_2.words[word];
+    uint bits = four ? wide_4.words[word_of(at)] : wide_2.words[word_of(at)];
     return (bits >> (at.x & 31) & 1u) != 0u;
+}
+
+// A bit for each of the `count` (up to 8) cells along x from `at` on: whether it is interesting.
+uint interesting_from(ivec3 at, int count) {
+    uint word = word_of(at);
+    int bit = at.x & 31;
+    uint bits = interesting.words[word] >> bit;
+    if (bit + count > 32) {
+        bits |= interesting.words[word + 1u] << (32 - bit);
+    }
+    return bits & ((1u << count) - 1u);
+}
+
+// Faces of a box of `side`^3 cells, one of `count`; those at the border are the volume's.
+vec3 begin_of(ivec3 at, int side) {
+    precise vec3 begin = mix(vec3(at * side) * bundle.sides.xyz, bundle.low.xyz, equal(at, ivec3(0)));
+    return begin;
+}
+
+vec3 end_of(ivec3 at, int side, ivec3 count) {
+    precise vec3 end = mix(vec3((at + 1) * side) * bundle.sides.xyz, bundle.high.xyz, equal(at + 1, count));
+    return end;
 }
 
 // Whether a cell from `first` to `last` is interesting; a window of more than 8 cells counts as one that is.
@@ -133,18 +169,62 @@ vec3 side_at(Rays rays, float way) {
     return side;
 }
 
+// The way, `free` or more, after which the bundle reaches into a box; BEYOND where it passes by.
+float enter(Rays rays, vec3 begin, vec3 end, float free) {
+    precise vec3 apart = 0.5 * (begin + end) - rays.middle;
+    precise vec3 reach = rays.half_side + 0.5 * (end - begin) + MARGIN;
+    precise vec3 slow = rays.direction - rays.spreads;
+    precise vec3 fast = rays.direction + rays.spreads;
+    precise vec3 most = (apart + reach) / slow;
+    precise vec3 least = (apart - reach) / fast;
+    float from = free;
+    float to = BEYOND;
+    for (int a = 0; a < 3; ++a) {
+        if (slow[a] > ALONG) {
+            to = min(to, most[a]);
+        } else if (slow[a] < -ALONG) {
+            from = max(from, most[a]);
+        }
+        if (fast[a] > ALONG) {
+            from = max(from, least[a]);
+        } else if (fast[a] < -ALONG) {
+            to = min(to, least[a]);
+        }
+    }
+    return from <= to ? from : BEYOND;
+}
+
+// How far the rays of cell `at` go before they meet the first of the interesting cells from `first` to `last`.
+float nearest_of(ivec3 at, Rays rays, ivec3 first, ivec3 last, float free, float shortened) {
+    float nearest = BEYOND;
+    for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+            uint bits = interesting_from(ivec3(first.x, y, z), last.x - first.x + 1);
+            while (bits != 0u) {
+                ivec3 cell = ivec3(first.x + findLSB(bits), y, z);
+                bits &= bits - 1u;
+                precise vec3 gap = vec3(max(abs(cell - at) - 1, ivec3(0))) * bundle.sides.xyz;
+                precise float way = enter(rays, begin_of(cell, 1), end_of(cell, 1, cells()), free) * shortened;
+                precise float apart = sqrt(dot_in_order(gap, gap));
+                nearest = min(nearest, max(apart, way));
+            }
+        }
+    }
+    return nearest;
+}
+
 uint distance_of(ivec3 box) {
 #ifdef LARGER
     uint known = of_larger(box);
 #else
     const uint known = 0u;
 #endif
-    if (known == FAR) {
-        return FAR;
-    }
     uint least = scale() == 1 ? max(known, texelFetch(omni_distance, box, 0).r) : known;
-    precise vec3 begin = mix(vec3(box * scale()) * bundle.sides.xyz, bundle.low.xyz, equal(box, ivec3(0)));
-    precise vec3 end = mix(vec3((box + 1) * scale()) * bundle.sides.xyz, bundle.high.xyz, equal(box + 1, boxes()));
+    if (known >= ENOUGH) {
+        return least;
+    }
+    vec3 begin = begin_of(box, scale());
+    vec3 end = end_of(box, scale(), boxes());
     Rays rays;
     precise vec3 middle = 0.5 * (begin + end);
     precise vec3 half_side = 0.5 * (end - begin);
@@ -166,17 +246,21 @@ uint distance_of(ivec3 box) {
     precise float short_step = bundle.short_step * float(scale());
     rays = Rays(middle, half_side, direction, spreads);
     precise float free = float(known) / lengthened;
-    for (uint i = 0u; i < STEPS; ++i) {
-        if (free * shortened > 257.0) {
-            break;
-        }
+    precise float nearest = BEYOND;
+    uint steps = 0u;
+    while (free * shortened < nearest) {
         vec3 here = centre_at(rays, free);
         vec3 side = side_at(rays, free);
         precise vec3 lowest = here - side;
         precise vec3 highest = here + side;
+        // Rays that have left do not come back.
         if (any(lessThan(highest, bundle.low.xyz)) || any(greaterThan(lowest, bundle.high.xyz))) {
-            // Rays that have left do not come back.
-            return FAR;
+            break;
+        }
+        ++steps;
+        if (steps > STEPS) {
+            nearest = free * shortened;
+            break;
         }
         float omni = float(texelFetch(omni_distance, cell_of(here), 0).r);
         precise float room = omni - (radius + widening * free) - MARGIN;
@@ -189,12 +273,18 @@ uint distance_of(ivec3 box) {
         vec3 side_there = side_at(rays, after);
         precise vec3 from = min(lowest, there - side_there) - MARGIN;
         precise vec3 to = max(highest, there + side_there) + MARGIN;
-        if (meets(cell_of(from), cell_of(to))) {
-            break;
+        ivec3 first = cell_of(from);
+        ivec3 last = cell_of(to);
+        if (meets(first, last)) {
+            if (scale() > 1 || any(greaterThanEqual(last - first, ivec3(WINDOW)))) {
+                nearest = free * shortened;
+                break;
+            }
+            nearest = min(nearest, nearest_of(box, rays, first, last, free, shortened));
         }
         free = after;
     }
-    precise float whole = floor(free * shortened - MARGIN);
+    precise float whole = floor(nearest - MARGIN);
     return max(uint(clamp(whole, 0.0, float(FAR))), least);
 }
 

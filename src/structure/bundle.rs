@@ -13,11 +13,15 @@
 //!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
 //! - `cone`: a unit vector within an angle t of v is within 2 sin(t/2) of it, which is spread on every axis, and widening.
 //!
-//! Boxes of 4^3 and 2^3 cells are searched first: what is free for all rays through one is free for those through each of
-//! its cells, whose search begins there. (Directions of a cone differ from box to box, so the cones of larger boxes are
-//! wider, by [`WIDER`].) The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps whose
-//! boxes are held against the interesting cells. Border cells reach out to the faces of the volume. In f32, operation by
-//! operation as in `glsl/structure/bundle.comp`, its twin.
+//! The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps: the
+//! box that a step sweeps is held against the interesting cells, and where one of a cell is among them, the way at which
+//! the bundle enters it is found exactly, axis by axis. Nothing is nearer than the distance between the two boxes, so that
+//! the bound is never below that of [`super::octants`].
+//!
+//! Boxes of 4^3 and 2^3 cells are searched first, which ends at the first step that may meet something: what is free for
+//! all rays through one is free for those through each of its cells, whose search begins there. (Directions of a cone
+//! differ from box to box, so the cones of larger boxes are wider, by [`WIDER`].) Border cells reach out to the faces of
+//! the volume. In f32, operation by operation as in `glsl/structure/bundle.comp`, its twin.
 
 use rayon::prelude::*;
 
@@ -31,6 +35,19 @@ const MARGIN: f32 = 1.0 / 512.0;
 
 /// Steps along a ray before the search ends where it is.
 const STEPS: u32 = 1024;
+
+/// More than any distance that is told apart, in voxels.
+const BEYOND: f32 = 257.0;
+
+/// So many voxels, known of the larger box, are not searched for more: a ray that gets there looks again, which costs a
+/// fragment of an intermediate pass, and no main pass is run for it in between.
+const ENOUGH: u8 = 32;
+
+/// Cells along the side of the largest window whose cells are looked at one by one.
+const WINDOW: usize = 5;
+
+/// A direction that changes a coordinate by less than this in a voxel bounds nothing.
+const ALONG: f32 = 1e-6;
 
 /// Sides of the boxes that are searched, in cells.
 pub const SCALES: [usize; 3] = [4, 2, 1];
@@ -67,7 +84,7 @@ impl Bundles {
             low: single(-0.5 * spacing),
             high: single((dims - 0.5) * spacing),
             spread: view.half_angle.map_or(0.0, |t| 2.0 * (0.5 * t).sin()) as f32,
-            step: 0.5 * grid.cell as f32,
+            step: grid.cell as f32,
         }
     }
 }
@@ -80,12 +97,13 @@ fn eye_in_voxels(grid: &Grid, field: &Field, point: glam::DVec3) -> glam::DVec3 
 
 /// Distances of all cells along their bundles. `omni` are those in any direction, `interesting` has one flag a cell.
 pub fn along(omni: &DistanceField, interesting: &[bool], bundles: &Bundles) -> DistanceField {
-    let two = Wide::of(&omni.grid, interesting).widened(1);
+    let one = Wide::of(&omni.grid, interesting);
+    let two = one.widened(1);
     let four = two.widened(2);
     let mut found: Option<Level> = None;
     for scale in SCALES {
         let boxes = omni.grid.cells.map(|n| n.div_ceil(scale));
-        let search = Search { bundles, omni, two: &two, four: &four, scale, boxes, larger: found.as_ref() };
+        let search = Search { bundles, omni, one: &one, two: &two, four: &four, scale, boxes, larger: found.as_ref() };
         let mut distances = vec![0; boxes.iter().product()];
         distances.par_chunks_mut(boxes[0]).enumerate().for_each(|(row, line)| {
             for (x, distance) in line.iter_mut().enumerate() {
@@ -106,7 +124,8 @@ struct Level {
 struct Search<'a> {
     bundles: &'a Bundles,
     omni: &'a DistanceField,
-    /// Any interesting cell among 2^3 and 4^3 from each on.
+    /// Interesting cells, and any among 2^3 and 4^3 from each on.
+    one: &'a Wide,
     two: &'a Wide,
     four: &'a Wide,
     /// Side of a box in cells, and how many there are.
@@ -120,25 +139,30 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// A box and its bundle.
+#[derive(Clone, Copy)]
+struct Rays {
+    middle: [f32; 3],
+    half: [f32; 3],
+    direction: [f32; 3],
+    spreads: [f32; 3],
+}
+
 impl Search<'_> {
     fn distance(&self, at: [usize; 3]) -> u8 {
-        let Bundles { eye, sides, low, high, spread, step } = *self.bundles;
+        let Bundles { eye, low, high, spread, step, .. } = *self.bundles;
         let (grid, scale) = (&self.omni.grid, self.scale);
         let known = self.larger.map_or(0, |level| {
             let [x, y, z] = at.map(|i| i / 2);
             level.distances[(z * level.boxes[1] + y) * level.boxes[0] + x]
         });
-        if known == FAR {
-            return FAR;
-        }
         let least = if scale == 1 { known.max(self.omni.distances[grid.index(at)]) } else { known };
-        let (mut middle, mut half) = ([0.0; 3], [0.0; 3]);
-        for a in 0..3 {
-            let begin = if at[a] == 0 { low[a] } else { (at[a] * scale) as f32 * sides[a] };
-            let end = if at[a] + 1 == self.boxes[a] { high[a] } else { ((at[a] + 1) * scale) as f32 * sides[a] };
-            middle[a] = 0.5 * (begin + end);
-            half[a] = 0.5 * (end - begin);
+        if known >= ENOUGH {
+            return least;
         }
+        let (begin, end) = self.faces(at, scale, self.boxes);
+        let middle: [f32; 3] = std::array::from_fn(|a| 0.5 * (begin[a] + end[a]));
+        let half: [f32; 3] = std::array::from_fn(|a| 0.5 * (end[a] - begin[a]));
         let way: [f32; 3] = std::array::from_fn(|a| middle[a] - eye[a]);
         let (away, radius) = (dot(way, way).sqrt(), dot(half, half).sqrt());
         // Seen from within, rays go anywhere.
@@ -153,15 +177,20 @@ impl Search<'_> {
         let shortened = if cone { 1.0 } else { (away - radius) / away };
         let lengthened = if cone { 1.0 } else { (away + radius) / away };
         let short = step * scale as f32;
+        let rays = Rays { middle, half, direction, spreads };
         let mut free = f32::from(known) / lengthened;
-        for _ in 0..STEPS {
-            if free * shortened > 257.0 {
+        let mut nearest = BEYOND;
+        let mut steps = 0;
+        while free * shortened < nearest {
+            let (here, side) = rays.place(free);
+            // Rays that have left do not come back.
+            if (0..3).any(|a| here[a] + side[a] < low[a] || here[a] - side[a] > high[a]) {
                 break;
             }
-            let (here, side) = self.place(middle, half, direction, spreads, free);
-            if (0..3).any(|a| here[a] + side[a] < low[a] || here[a] - side[a] > high[a]) {
-                // Rays that have left do not come back.
-                return FAR;
+            steps += 1;
+            if steps > STEPS {
+                nearest = free * shortened;
+                break;
             }
             let cell: [usize; 3] = std::array::from_fn(|a| self.cell_of(here[a], a));
             let room = f32::from(self.omni.distances[grid.index(cell)]) - (radius + widening * free) - MARGIN;
@@ -169,7 +198,7 @@ impl Search<'_> {
                 free += room / (1.0 + widening);
                 continue;
             }
-            let (there, side_there) = self.place(middle, half, direction, spreads, free + short);
+            let (there, side_there) = rays.place(free + short);
             let mut first = [0; 3];
             let mut last = [0; 3];
             for a in 0..3 {
@@ -177,26 +206,46 @@ impl Search<'_> {
                 last[a] = self.cell_of((here[a] + side[a]).max(there[a] + side_there[a]) + MARGIN, a);
             }
             if self.meets(first, last) {
-                break;
+                if scale > 1 || (0..3).any(|a| last[a] - first[a] >= WINDOW) {
+                    nearest = free * shortened;
+                    break;
+                }
+                nearest = self.nearest_of(at, &rays, [first, last], free, shortened).min(nearest);
             }
             free += short;
         }
-        let whole = (free * shortened - MARGIN).floor().clamp(0.0, f32::from(FAR)) as u8;
+        let whole = (nearest - MARGIN).floor().clamp(0.0, f32::from(FAR)) as u8;
         whole.max(least)
     }
 
-    /// Centre and half sides of what the bundle reaches after the way `free`.
-    fn place(
-        &self,
-        middle: [f32; 3],
-        half: [f32; 3],
-        direction: [f32; 3],
-        spreads: [f32; 3],
-        free: f32,
-    ) -> ([f32; 3], [f32; 3]) {
-        let centre = std::array::from_fn(|a| middle[a] + free * direction[a]);
-        let side = std::array::from_fn(|a| half[a] + free * spreads[a]);
-        (centre, side)
+    /// How far the rays of cell `at` go before they meet the first of the interesting cells of a window.
+    fn nearest_of(&self, at: [usize; 3], rays: &Rays, window: [[usize; 3]; 2], free: f32, shortened: f32) -> f32 {
+        let sides = self.bundles.sides;
+        let [first, last] = window;
+        let mut nearest = BEYOND;
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                let mut bits = self.one.from([first[0], y, z], last[0] - first[0] + 1);
+                while bits != 0 {
+                    let cell = [first[0] + bits.trailing_zeros() as usize, y, z];
+                    bits &= bits - 1;
+                    let gap: [f32; 3] =
+                        std::array::from_fn(|a| at[a].abs_diff(cell[a]).saturating_sub(1) as f32 * sides[a]);
+                    let (begin, end) = self.faces(cell, 1, self.omni.grid.cells);
+                    let enters = rays.enter(begin, end, free);
+                    nearest = nearest.min(dot(gap, gap).sqrt().max(enters * shortened));
+                }
+            }
+        }
+        nearest
+    }
+
+    /// Faces of a box of `scale`^3 cells; those at the border are the volume's.
+    fn faces(&self, at: [usize; 3], scale: usize, boxes: [usize; 3]) -> ([f32; 3], [f32; 3]) {
+        let Bundles { sides, low, high, .. } = self.bundles;
+        let begin = |a: usize| if at[a] == 0 { low[a] } else { (at[a] * scale) as f32 * sides[a] };
+        let end = |a: usize| if at[a] + 1 == boxes[a] { high[a] } else { ((at[a] + 1) * scale) as f32 * sides[a] };
+        (std::array::from_fn(begin), std::array::from_fn(end))
     }
 
     fn cell_of(&self, coordinate: f32, axis: usize) -> usize {
@@ -219,6 +268,39 @@ impl Search<'_> {
         zs[..once(zs)]
             .iter()
             .any(|&z| ys[..once(ys)].iter().any(|&y| xs[..once(xs)].iter().any(|&x| wide.at([x, y, z]))))
+    }
+}
+
+impl Rays {
+    /// Centre and half sides of what the bundle reaches after the way `free`.
+    fn place(&self, free: f32) -> ([f32; 3], [f32; 3]) {
+        let centre = std::array::from_fn(|a| self.middle[a] + free * self.direction[a]);
+        let side = std::array::from_fn(|a| self.half[a] + free * self.spreads[a]);
+        (centre, side)
+    }
+
+    /// The way, `free` or more, after which the bundle reaches into a box; [`BEYOND`] where it passes by. On each axis
+    /// |middle + way direction - its middle| <= half + way spread + its half side, two inequalities linear in the way.
+    fn enter(&self, begin: [f32; 3], end: [f32; 3], free: f32) -> f32 {
+        let (mut enter, mut leave) = (free, BEYOND);
+        for a in 0..3 {
+            let apart = 0.5 * (begin[a] + end[a]) - self.middle[a];
+            let reach = self.half[a] + 0.5 * (end[a] - begin[a]) + MARGIN;
+            let (slow, fast) = (self.direction[a] - self.spreads[a], self.direction[a] + self.spreads[a]);
+            // way slow <= apart + reach and way fast >= apart - reach.
+            let (most, least) = ((apart + reach) / slow, (apart - reach) / fast);
+            if slow > ALONG {
+                leave = leave.min(most);
+            } else if slow < -ALONG {
+                enter = enter.max(most);
+            }
+            if fast > ALONG {
+                enter = enter.max(least);
+            } else if fast < -ALONG {
+                leave = leave.min(least);
+            }
+        }
+        if enter <= leave { enter } else { BEYOND }
     }
 }
 

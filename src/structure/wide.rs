@@ -37,6 +37,16 @@ impl Wide {
         Self { cells: self.cells, words }
     }
 
+    /// Bits of the `count` (up to 8) cells along x from that one on, which are all in the row.
+    pub fn from(&self, [x, y, z]: [usize; 3], count: usize) -> u32 {
+        let (word, bit) = ((z * self.cells[1] + y) * self.cells[0].div_ceil(32) + x / 32, x % 32);
+        let mut bits = self.words[word] >> bit;
+        if bit + count > 32 {
+            bits |= self.words[word + 1] << (32 - bit);
+        }
+        bits & ((1 << count) - 1)
+    }
+
     /// Whether anything in the window from that cell on is interesting.
     pub fn at(&self, [x, y, z]: [usize; 3]) -> bool {
         let word = (z * self.cells[1] + y) * self.cells[0].div_ceil(32) + x / 32;

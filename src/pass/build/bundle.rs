@@ -26,6 +26,7 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
         let mut reads = vec![
             ("bundle", Resource::Bundle),
             ("omni_distance", Resource::OmniDistance),
+            ("interesting", Resource::Interesting),
             ("wide_2", Resource::Wide2),
             ("wide_4", Resource::Wide4),
         ];
