@@ -194,6 +194,20 @@ float enter(Rays rays, vec3 begin, vec3 end, float free) {
     return from <= to ? from : BEYOND;
 }
 
+// Whether a cell lies where no ray of the bundle goes, on some axis, though the boxes may touch.
+bool behind(ivec3 way, Rays rays) {
+    precise vec3 slow = rays.direction - rays.spreads;
+    precise vec3 fast = rays.direction + rays.spreads;
+    bvec3 up = greaterThan(slow, vec3(ALONG));
+    bvec3 down = lessThan(fast, vec3(-ALONG));
+    for (int a = 0; a < 3; ++a) {
+        if ((way[a] < 0 && up[a]) || (way[a] > 0 && down[a])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // How far the rays of cell `at` go before they meet the first of the interesting cells from `first` to `last`.
 float nearest_of(ivec3 at, Rays rays, ivec3 first, ivec3 last, float free, float shortened) {
     float nearest = BEYOND;
@@ -203,6 +217,9 @@ float nearest_of(ivec3 at, Rays rays, ivec3 first, ivec3 last, float free, float
             while (bits != 0u) {
                 ivec3 cell = ivec3(first.x + findLSB(bits), y, z);
                 bits &= bits - 1u;
+                if (behind(cell - at, rays)) {
+                    continue;
+                }
                 precise vec3 gap = vec3(max(abs(cell - at) - 1, ivec3(0))) * bundle.sides.xyz;
                 precise float way = enter(rays, begin_of(cell, 1), end_of(cell, 1, cells()), free) * shortened;
                 precise float apart = sqrt(dot_in_order(gap, gap));

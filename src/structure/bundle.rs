@@ -229,6 +229,9 @@ impl Search<'_> {
                 while bits != 0 {
                     let cell = [first[0] + bits.trailing_zeros() as usize, y, z];
                     bits &= bits - 1;
+                    if rays.behind(at, cell) {
+                        continue;
+                    }
                     let gap: [f32; 3] =
                         std::array::from_fn(|a| at[a].abs_diff(cell[a]).saturating_sub(1) as f32 * sides[a]);
                     let (begin, end) = self.faces(cell, 1, self.omni.grid.cells);
@@ -277,6 +280,14 @@ impl Rays {
         let centre = std::array::from_fn(|a| self.middle[a] + free * self.direction[a]);
         let side = std::array::from_fn(|a| self.half[a] + free * self.spreads[a]);
         (centre, side)
+    }
+
+    /// Whether a cell lies where no ray of the bundle from cell `at` goes, on some axis, though the boxes may touch.
+    fn behind(&self, at: [usize; 3], cell: [usize; 3]) -> bool {
+        (0..3).any(|a| {
+            let (slow, fast) = (self.direction[a] - self.spreads[a], self.direction[a] + self.spreads[a]);
+            cell[a] < at[a] && slow > ALONG || cell[a] > at[a] && fast < -ALONG
+        })
     }
 
     /// The way, `free` or more, after which the bundle reaches into a box; [`BEYOND`] where it passes by. On each axis
