@@ -68,7 +68,8 @@ impl Scheduling {
     fn wrongly_stored(&self) -> Vec<String> {
         let mut found = Vec::new();
         for (i, target, attachment) in self.attachments() {
-            let tested_only = self.steps[i].accesses.contains(&Usage::DepthTest.of(target));
+            let left_alone = [Usage::DepthTest, Usage::ColorKept].map(|usage| usage.of(target));
+            let tested_only = left_alone.iter().any(|access| self.steps[i].accesses.contains(access));
             // The picture is read after the last step.
             let read_later = self.used_after(i, target) || target == Resource::Accumulated;
             let expected = match (tested_only, read_later) {
@@ -248,8 +249,10 @@ fn every_use_waits_for_the_one_before() {
 fn attachments_are_those_a_step_draws_into_or_tests() {
     for one in schedulings() {
         for (step, scheduled) in one.steps.iter().zip(&one.scheduled) {
-            let attached =
-                |usage| matches!(usage, Usage::Color | Usage::ColorInput | Usage::DepthWrite | Usage::DepthTest);
+            let attached = |usage| {
+                use Usage::{Color, ColorInput, ColorKept, DepthTest, DepthWrite};
+                matches!(usage, Color | ColorInput | ColorKept | DepthTest | DepthWrite)
+            };
             let drawn: Vec<_> = step.accesses.iter().filter(|a| attached(a.usage)).map(|a| a.resource).collect();
             assert_eq!(scheduled.targets, drawn, "{} of {}", step.name, one.name);
             assert_eq!(scheduled.render_pass.is_some(), matches!(step.work, Work::Draw(_)));

@@ -139,7 +139,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<
     for access in plan.steps.iter().flat_map(|s| &s.accesses).filter(|a| a.resource.is_target()) {
         let flags = usages.entry(access.resource).or_default();
         *flags |= match access.usage {
-            Usage::Color => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            Usage::Color | Usage::ColorKept => vk::ImageUsageFlags::COLOR_ATTACHMENT,
             Usage::ColorInput => vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::INPUT_ATTACHMENT,
             Usage::DepthWrite | Usage::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
             Usage::CopySource => vk::ImageUsageFlags::TRANSFER_SRC,

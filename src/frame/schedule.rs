@@ -110,7 +110,7 @@ fn attachment(
     let first = before == vk::ImageLayout::UNDEFINED;
     // A read-only layout cannot be cleared.
     let usage_now = if first && usage == Usage::DepthTest { Usage::DepthWrite } else { usage };
-    let read_only = usage_now == Usage::DepthTest;
+    let read_only = matches!(usage_now, Usage::DepthTest | Usage::ColorKept);
     // The picture is read back after the last step.
     let kept = used_later || resource == Resource::Accumulated;
     Attachment {

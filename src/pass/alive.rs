@@ -9,12 +9,17 @@ use super::{DepthTest, Draw, Faces, Group, Step, Work};
 const ALIVE: f32 = 0.75;
 
 /// Counts before main pass `pass`, by a depth test that every device has.
-pub fn alive(pass: u32) -> Step {
+///
+/// `beside`: a colour target that is attached for nothing. Mesa 26's lavapipe forgets that attachments blend each in its
+/// own way once a step without colour attachments was drawn: marks beside a blended RES would be blended too, and lost.
+pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
+    let mut accesses = vec![Usage::Vertices.of(Resource::Box), Usage::DepthTest.of(Resource::Stored)];
+    accesses.extend(beside.map(|target| Usage::ColorKept.of(target)));
     Step {
         name: format!("alive #{pass}"),
         group: Group::Alive,
         pass,
-        accesses: vec![Usage::Vertices.of(Resource::Box), Usage::DepthTest.of(Resource::Stored)],
+        accesses,
         work: Work::Draw(Draw {
             faces: Faces::Front,
             depth: ALIVE,

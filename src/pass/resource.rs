@@ -101,6 +101,8 @@ pub enum Usage {
     Color,
     /// Drawn into, and a fragment reads what its own pixel held before.
     ColorInput,
+    /// Attached like a colour that is drawn into, and left as it is.
+    ColorKept,
     DepthWrite,
     DepthTest,
     /// Read by the fragment shader.
@@ -136,13 +138,13 @@ impl Usage {
 
     /// Whether it is as an attachment of a render pass.
     pub fn is_attachment(self) -> bool {
-        matches!(self, Self::Color | Self::ColorInput | Self::DepthWrite | Self::DepthTest)
+        matches!(self, Self::Color | Self::ColorInput | Self::ColorKept | Self::DepthWrite | Self::DepthTest)
     }
 
     /// The layout an image has meanwhile.
     pub fn layout(self) -> vk::ImageLayout {
         match self {
-            Self::Color => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+            Self::Color | Self::ColorKept => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
             Self::ColorInput => vk::ImageLayout::GENERAL,
             Self::DepthWrite => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
@@ -160,6 +162,7 @@ impl Usage {
         let depth_tests = S::EARLY_FRAGMENT_TESTS | S::LATE_FRAGMENT_TESTS;
         match self {
             Self::Color => (S::COLOR_ATTACHMENT_OUTPUT, A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE),
+            Self::ColorKept => (S::COLOR_ATTACHMENT_OUTPUT, A::COLOR_ATTACHMENT_READ),
             Self::ColorInput => (
                 S::COLOR_ATTACHMENT_OUTPUT | S::FRAGMENT_SHADER,
                 A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE | A::INPUT_ATTACHMENT_READ,

@@ -2,6 +2,7 @@
 
 use super::View;
 use crate::pass::cull::{Form, Mark};
+use crate::pass::resource::Resource;
 use crate::pass::{
     Step, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy, near_neighbor, termination,
 };
@@ -41,7 +42,7 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
             steps.push(clear::clear());
             steps.push(near_neighbor::near_neighbor(scene, 0, passes, form));
             for pass in 0..passes {
-                decided(&mut steps, pass, form);
+                decided(&mut steps, pass, form, (form.mark == Mark::Copy).then_some(Resource::Marks));
                 steps.push(fused::fused(scene, pass, passes, form));
             }
         }
@@ -49,7 +50,7 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
             steps.push(clear::clear());
             for pass in 0..passes {
                 steps.push(near_neighbor::near_neighbor(scene, pass, passes, form));
-                decided(&mut steps, pass, form);
+                decided(&mut steps, pass, form, None);
                 let end = crate::reference::section::section_end(pass, passes) as f32;
                 steps.push(main_pass::main_pass(scene, pass, Some((form.cull, end))));
             }
@@ -75,7 +76,7 @@ fn switched(
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
             steps.push(decide(scene, pass, form));
-            decided(steps, pass, form);
+            decided(steps, pass, form, None);
             culled = Some((form.cull, SWITCH));
         }
         steps.push(main_pass::main_pass(scene, pass, culled));
@@ -83,12 +84,12 @@ fn switched(
 }
 
 /// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
-/// count of rays left.
-fn decided(steps: &mut Vec<Step>, pass: u32, form: Form) {
+/// count of rays left, with a target `beside` it.
+fn decided(steps: &mut Vec<Step>, pass: u32, form: Form, beside: Option<Resource>) {
     if form.mark == Mark::Copy {
         steps.push(mark_copy::mark_copy(pass));
     }
     if pass > 0 && pass.is_multiple_of(BATCH) {
-        steps.push(alive::alive(pass));
+        steps.push(alive::alive(pass, beside));
     }
 }

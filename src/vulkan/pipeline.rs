@@ -44,6 +44,7 @@ pub enum Blend {
 pub struct GraphicsPipelineInfo<'a> {
     pub name: &'a str,
     pub vertex: &'a Shader,
+    /// Without one colours are undefined, and colour attachments are left as they are.
     pub fragment: Option<&'a Shader>,
     /// Specialization constants by name, with the bits of their values.
     pub constants: &'a [(&'a str, u32)],
@@ -197,6 +198,10 @@ fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::Pi
         ));
     }
     let (source, target) = (vk::BlendFactor::ONE_MINUS_DST_ALPHA, vk::BlendFactor::ONE);
+    let written = match info.fragment {
+        Some(_) => vk::ColorComponentFlags::RGBA,
+        None => vk::ColorComponentFlags::empty(),
+    };
     let state = |over| {
         vk::PipelineColorBlendAttachmentState::default()
             .blend_enable(over)
@@ -206,7 +211,7 @@ fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::Pi
             .src_alpha_blend_factor(source)
             .dst_alpha_blend_factor(target)
             .alpha_blend_op(vk::BlendOp::ADD)
-            .color_write_mask(vk::ColorComponentFlags::RGBA)
+            .color_write_mask(written)
     };
     Ok(over.into_iter().map(state).collect())
 }

@@ -47,11 +47,18 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni+fused_ztest_copy", NnOmniFused, form(Ztest, Mark::Copy), false),
         ("nn-omni+fused_discard_copy", NnOmniFused, form(Discard, Mark::Copy), false),
     ];
-    rows.map(|(name, method, form, block_first)| {
-        let mut settings = settings(method);
-        settings.method.block_first = block_first;
-        settings.method.cell = if name.ends_with("cell-4") { 4 } else { 1 };
-        Case { name, plan: plan(&scene(&settings), form).unwrap() }
-    })
-    .into()
+    let mut cases: Vec<Case> = rows
+        .map(|(name, method, form, block_first)| {
+            let mut settings = settings(method);
+            settings.method.block_first = block_first;
+            settings.method.cell = if name.ends_with("cell-4") { 4 } else { 1 };
+            Case { name, plan: plan(&scene(&settings), form).unwrap() }
+        })
+        .into();
+    // Long enough for the rays left to be counted.
+    let mut settings = settings(NnOmniFused);
+    settings.sampling.samples_per_pass = 2;
+    let plan = plan(&scene(&settings), form(Bounds, Mark::Copy)).unwrap();
+    cases.push(Case { name: "nn-omni+fused_bounds_copy_counted", plan });
+    cases
 }
