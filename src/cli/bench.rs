@@ -187,7 +187,7 @@ fn available(checked: Option<&Checked>, form: Form) -> bool {
 }
 
 /// The command line without the program's folder, words quoted where they need it.
-fn command_line() -> String {
+pub(super) fn command_line() -> String {
     let quoted = |word: String| {
         let plain = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "-_./,:=+".contains(c));
         if plain { word } else { format!("'{word}'") }

@@ -7,6 +7,7 @@ mod options;
 mod output;
 mod plan;
 mod render;
+mod reproduce;
 
 use std::process::ExitCode;
 
@@ -32,6 +33,7 @@ const EXAMPLES: &str = "Examples:
   depthleap bench fuel.nrrd --tf ramp -o out             on a file
   depthleap render fuel.nrrd -o fuel.png                 one picture, its counts and times
   depthleap render builtin:shells:128 --method rc-ert -o -.png > shells.png
+  depthleap reproduce --data volumes -o out              the papers' tables, theirs beside ours
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -61,6 +63,7 @@ Environment:
 enum Command {
     Render(Box<render::Render>),
     Bench(Box<bench::Bench>),
+    Reproduce(Box<reproduce::Reproduce>),
     Plan(Box<plan::Plan>),
     Info(info::Info),
 }
@@ -71,6 +74,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command {
         Command::Render(command) => command.run(),
         Command::Bench(command) => command.run(),
+        Command::Reproduce(command) => command.run(),
         Command::Plan(command) => command.run(),
         Command::Info(command) => command.run(),
     };

@@ -35,6 +35,8 @@ enum EarlyEnd {
     Conditional,
     /// The count of rays left is read back between batches
     Readback,
+    /// Every pass runs, as in the papers
+    Never,
 }
 
 impl DeviceOptions {
@@ -53,6 +55,7 @@ impl DeviceOptions {
         let early_end = self.early_end.map(|way| match way {
             EarlyEnd::Conditional => frame::EarlyEnd::Conditional,
             EarlyEnd::Readback => frame::EarlyEnd::ReadBack,
+            EarlyEnd::Never => frame::EarlyEnd::Never,
         });
         if early_end == Some(frame::EarlyEnd::Conditional) && !info.conditional_rendering {
             return Err(Error::device(

@@ -41,6 +41,8 @@ pub enum EarlyEnd {
     Conditional,
     /// The host reads the count between batches.
     ReadBack,
+    /// Not at all: every pass runs, as in the papers, and rays are not counted.
+    Never,
 }
 
 /// One run of a frame.
@@ -88,10 +90,12 @@ impl GpuFrame {
         resident: &mut Resident,
         early_end: Option<EarlyEnd>,
     ) -> Result<Self> {
-        let compiled = compile(device, scene, plan, resident)?;
-        let steps = compiled.steps.len().max(1) as u32;
         let best = if device.info.conditional_rendering { EarlyEnd::Conditional } else { EarlyEnd::ReadBack };
         let early_end = early_end.unwrap_or(best);
+        let mut plan = plan.clone();
+        plan.steps.retain(|step| step.group != Group::Alive || early_end != EarlyEnd::Never);
+        let compiled = compile(device, scene, &plan, resident)?;
+        let steps = compiled.steps.len().max(1) as u32;
         let alive = compiled.steps.iter().filter(|s| s.step.group == Group::Alive).count() as u64;
         let predicates = (alive > 0 && early_end == EarlyEnd::Conditional)
             .then(|| {
@@ -162,7 +166,7 @@ impl GpuFrame {
     fn batches(&self) -> Vec<Range<usize>> {
         let steps = &self.compiled.steps;
         let mut ends: Vec<usize> = match self.early_end {
-            EarlyEnd::Conditional => Vec::new(),
+            EarlyEnd::Conditional | EarlyEnd::Never => Vec::new(),
             EarlyEnd::ReadBack => {
                 let counts = |(i, s): (usize, &CompiledStep)| (s.step.group == Group::Alive).then_some(i + 1);
                 steps.iter().enumerate().filter_map(counts).collect()

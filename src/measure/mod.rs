@@ -5,7 +5,8 @@
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
-//! 5. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
+//! 5. [`orbit`]: frames of a camera that goes around; [`reproduce`]: the papers' tables, theirs beside ours.
+//! 6. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
 
 pub mod comparison;
 pub mod csv;
@@ -17,6 +18,7 @@ pub mod picture;
 pub mod plot;
 pub mod record;
 pub mod report;
+pub mod reproduce;
 pub mod runner;
 pub mod statistics;
 pub mod table;

@@ -7,6 +7,8 @@ use crate::error::Result;
 use crate::measure::comparison::{COLUMNS, Cell, Grid, note_mark};
 use crate::measure::picture::{Format, Picture};
 
+const STYLE: &str = include_str!("style.css");
+
 /// Text as it may stand in an element or a quoted attribute.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -28,8 +30,36 @@ pub fn escape(text: &str) -> String {
 pub struct Html(String);
 
 impl Html {
-    pub fn text(self) -> String {
+    /// A page with its heading.
+    pub fn page(title: &str) -> Self {
+        let mut page = Self::default();
+        page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+        page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+        page.tag("title", title);
+        page.raw(&format!("<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n"));
+        page.tag("h1", title);
+        page
+    }
+
+    /// The whole text of a page.
+    pub fn closed(mut self) -> String {
+        self.raw("</main>\n</body>\n</html>\n");
         self.0
+    }
+
+    /// A table of words, the first column left, the others right.
+    pub fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
+        let cell = |i: usize, tag: &str, text: &str| format!("<{tag}{}>{}</{tag}>", side(i > 0), escape(text));
+        let row = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
+            let cells: String = cells.enumerate().map(|(i, text)| cell(i, tag, text)).collect();
+            format!("<tr>{cells}</tr>")
+        };
+        let body: Vec<String> = rows.iter().map(|r| row("td", &mut r.iter().map(String::as_str))).collect();
+        let head = row("th", &mut head.iter().copied());
+        self.raw(&format!(
+            "<div class=\"wide\"><table>\n<thead>{head}</thead>\n<tbody>\n{}\n</tbody></table></div>\n",
+            body.join("\n")
+        ));
     }
 
     /// Markup as it is.

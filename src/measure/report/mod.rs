@@ -2,7 +2,7 @@
 //! `results.json`; what it claims is computed from the runs.
 
 mod claim;
-mod html;
+pub mod html;
 mod scene;
 
 use std::fmt::Write;
@@ -15,7 +15,6 @@ use crate::error::Result;
 
 pub use claim::claims;
 
-const STYLE: &str = include_str!("style.css");
 const METHOD: &str = include_str!("method.html");
 
 /// What the report is made from.
@@ -45,13 +44,7 @@ pub struct Difference {
 /// When a picture is inconsistent or cannot be encoded.
 pub fn report_html(input: &ReportInput) -> Result<String> {
     let results = input.results;
-    let mut page = Html::default();
-    page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    page.tag("title", input.title);
-    page.raw(&format!("<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n"));
-    page.tag("h1", input.title);
-
+    let mut page = Html::page(input.title);
     let groups = groups(&results.runs);
     page.raw("<div class=\"lead\">\n");
     for claim in claims(&groups) {
@@ -63,8 +56,7 @@ pub fn report_html(input: &ReportInput) -> Result<String> {
         scene::section(&mut page, group, input)?;
     }
     page.raw(METHOD);
-    page.raw("</main>\n</body>\n</html>\n");
-    Ok(page.text())
+    Ok(page.closed())
 }
 
 /// Devices with their self-checks, and how the runs were made.

@@ -1,0 +1,222 @@
+//! The numbers of the thesis' tables, and the views they were counted in.
+//!
+//! Thesis §5.4, Tables 1 and 2; Thesis §7.1, Table 1. What a view was follows from its counts: block skipping runs every
+//! fragment of the front face in every intermediate pass, so 9,891,936 = 428^2 x 54, 2,381,392 = 428^2 x 13 and 489,268 =
+//! 194^2 x 13. Read as one intermediate pass less than main passes, of M = 8 samples, the steps were 0.004 and 0.016 of
+//! the cube's side.
+
+/// A row of a table: what was counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Row {
+    /// Early z and empty blocks, tested after each main pass [KW03 §2.3].
+    Block,
+    /// The same, tested before the first main pass too; not in the thesis.
+    BlockFirst,
+    Optimal,
+    Omni,
+    Directional,
+    /// The lower bound; not in the thesis.
+    Ideal,
+}
+
+impl Row {
+    pub const ALL: [Self; 6] =
+        [Self::Block, Self::BlockFirst, Self::Optimal, Self::Omni, Self::Directional, Self::Ideal];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Block => "rc-block",
+            Self::BlockFirst => "rc-block (block first)",
+            Self::Optimal => "nn-optimal",
+            Self::Omni => "nn-omni",
+            Self::Directional => "nn-directional",
+            Self::Ideal => "ideal",
+        }
+    }
+}
+
+/// Fragments of one method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Published {
+    pub row: Row,
+    pub main: u64,
+    pub intermediate: u64,
+}
+
+/// A column of the thesis' tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DataSet {
+    /// As the thesis calls it.
+    pub name: &'static str,
+    pub source: &'static str,
+    /// The file that is this very volume; none where none is to be had.
+    pub file: Option<&'static str>,
+    /// What a reader should know of that file.
+    pub remark: Option<&'static str>,
+    /// Side of the cube, voxels.
+    pub side: u32,
+    /// Step, in sides of the cube.
+    pub step: f64,
+    /// Side of the front face, pixels.
+    pub face: u32,
+    pub intermediate_passes: u32,
+    /// Empty for volumes that are not in the thesis.
+    pub rows: &'static [Published],
+}
+
+const fn row(row: Row, main: u64, intermediate: u64) -> Published {
+    Published { row, main, intermediate }
+}
+
+const CHAPTER_5: &str = "Thesis §5.4, Tables 1 and 2";
+
+pub const DATA_SETS: [DataSet; 7] = [
+    DataSet {
+        name: "MRI-Head",
+        source: CHAPTER_5,
+        file: None,
+        remark: Some("the volren.org scan of that name is not to be had; mri_head.nrrd is another head"),
+        side: 256,
+        step: 0.004,
+        face: 428,
+        intermediate_passes: 54,
+        rows: &[
+            row(Row::Block, 869_293, 9_891_936),
+            row(Row::Optimal, 181_139, 534_272),
+            row(Row::Omni, 744_754, 1_218_485),
+            row(Row::Directional, 725_099, 1_458_291),
+        ],
+    },
+    DataSet {
+        name: "Foot",
+        source: CHAPTER_5,
+        file: None,
+        remark: Some("the Philips scan is not to be had; foot_cadaver.nrrd is another foot"),
+        side: 256,
+        step: 0.004,
+        face: 428,
+        intermediate_passes: 54,
+        rows: &[
+            row(Row::Block, 538_173, 9_891_936),
+            row(Row::Optimal, 159_380, 427_510),
+            row(Row::Omni, 455_547, 2_134_119),
+            row(Row::Directional, 410_729, 1_856_402),
+        ],
+    },
+    DataSet {
+        name: "Engine",
+        source: CHAPTER_5,
+        file: Some("engine_256cube.nrrd"),
+        remark: None,
+        side: 256,
+        step: 0.004,
+        face: 428,
+        intermediate_passes: 54,
+        rows: &[
+            row(Row::Block, 309_097, 9_891_936),
+            row(Row::Optimal, 65_927, 274_393),
+            row(Row::Omni, 186_059, 1_552_627),
+            row(Row::Directional, 178_331, 1_367_713),
+        ],
+    },
+    DataSet {
+        name: "Fuel",
+        source: CHAPTER_5,
+        file: Some("fuel.nrrd"),
+        remark: None,
+        side: 64,
+        step: 0.016,
+        face: 428,
+        intermediate_passes: 13,
+        rows: &[
+            row(Row::Block, 299_356, 2_381_392),
+            row(Row::Optimal, 31_220, 244_118),
+            row(Row::Omni, 155_011, 1_106_584),
+            row(Row::Directional, 131_495, 916_156),
+        ],
+    },
+    DataSet {
+        name: "Chapter 7",
+        source: "Thesis §7.1, Table 1",
+        file: Some("fuel.nrrd"),
+        remark: Some(
+            "the thesis shows this scene in a figure only; 13 passes fit a 64^3 volume, and fuel is our guess",
+        ),
+        side: 64,
+        step: 0.016,
+        face: 194,
+        intermediate_passes: 13,
+        rows: &[
+            row(Row::Block, 89_603, 489_268),
+            row(Row::Optimal, 6_691, 51_992),
+            row(Row::Omni, 69_330, 315_061),
+            row(Row::Directional, 60_162, 296_217),
+        ],
+    },
+    DataSet {
+        name: "mri_head",
+        source: "not in the thesis",
+        file: Some("mri_head.nrrd"),
+        remark: Some("another head than the thesis', with its parameters"),
+        side: 256,
+        step: 0.004,
+        face: 428,
+        intermediate_passes: 54,
+        rows: &[],
+    },
+    DataSet {
+        name: "aneurism",
+        source: "not in the thesis",
+        file: Some("aneurism.nrrd"),
+        remark: Some("vessels, with the thesis' parameters"),
+        side: 256,
+        step: 0.004,
+        face: 428,
+        intermediate_passes: 54,
+        rows: &[],
+    },
+];
+
+/// Side of the square viewport, pixels.
+pub const VIEWPORT: u32 = 500;
+
+/// Vertical field of view, degrees. The thesis names none; with 45 degrees the front face of the unit cube has 428 pixels
+/// from a distance of 1.91.
+pub const FOV: f64 = 45.0;
+
+/// Samples of a main pass.
+pub const SAMPLES_PER_PASS: u32 = 8;
+
+impl DataSet {
+    /// Distance of the eye from the centre of the unit cube from which its front face has `face` pixels: with a field of
+    /// view f a length l at the depth d fills l / (2 d tan(f/2)) of the viewport.
+    pub fn distance(&self) -> f64 {
+        let depth = f64::from(VIEWPORT) / (f64::from(self.face) * 2.0 * (0.5 * FOV.to_radians()).tan());
+        // To the hundredth, as a camera would be set.
+        ((depth + 0.5) * 100.0).round() / 100.0
+    }
+
+    /// Step in voxels.
+    pub fn step_voxels(&self) -> f64 {
+        self.step * f64::from(self.side)
+    }
+}
+
+/// What the thesis leaves open, and what that means here.
+pub const OPEN: [(&str, &str); 6] = [
+    (
+        "transfer function",
+        "\"a simple linear transfer function\": no points are given. Here `ramp` (0 below a quarter of the range, then \
+         linear); swept: linear over the whole range, and linear from 12/255, where a model fitted to the Fuel counts puts \
+         the begin",
+    ),
+    ("threshold T", "not given. Here 0.95; swept: 0.5 and 1, which ends no ray early"),
+    ("opacity correction", "not mentioned. Here 1 - (1 - a)^(step / voxel); swept: opacities as they stand"),
+    (
+        "definition of distance",
+        "\"the radius of the largest possible sphere centered on the voxel\", from voxel to voxel, which skips visible \
+         samples between voxels. Here between the boxes of cells, which never does; swept: cells of 2^3 voxels, looser still",
+    ),
+    ("end of a ray", "noticed on arrival. Here as soon as the next section lies beyond it; swept: on arrival"),
+    ("order of the block test", "KW03 tests after each main pass. Both orders are shown as rows"),
+];
