@@ -38,7 +38,7 @@ const TURNS: [(&str, &[MethodName], Change); 3] = [
 ];
 
 /// Volume, transfer function and what else is set.
-const BUILT_IN: [(&str, &str, Change); 10] = [
+const BUILT_IN: [(&str, &str, Change); 11] = [
     ("shells:48", "ramp", |_| {}),
     // A jump of opacity, walls on block seams.
     ("blocks:64", "surface", |_| {}),
@@ -60,6 +60,11 @@ const BUILT_IN: [(&str, &str, Change); 10] = [
     ("shells:40", "ramp", |s| (s.image.accumulate, s.sampling.termination) = (Accumulate::Rgba16f, 0.7)),
     ("gaussian:32", "linear", |s| {
         (s.image.accumulate, s.sampling.termination, s.sampling.samples_per_pass) = (Accumulate::Rgba8, 0.5, 2);
+    }),
+    // 1 - 0.99^8 = 0.077 is a little above T when the last pass begins.
+    ("constant:24", "haze", |s| {
+        (s.image.accumulate, s.sampling.termination) = (Accumulate::Rgba8, 0.075);
+        (s.sampling.samples_per_pass, s.sampling.passes) = (8, 2);
     }),
 ];
 
