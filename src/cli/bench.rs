@@ -18,7 +18,7 @@ use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
 use crate::pass::cull::Form;
 use crate::read;
-use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
+use crate::scene::settings::{CELLS, Cull, MethodName, MethodSettings, Settings};
 
 /// Every method on every scene: the main job
 ///
@@ -31,6 +31,7 @@ use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
   depthleap bench fuel.nrrd aneurism.nrrd --tf ramp -o out
   depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out
   depthleap bench engine.nrrd --method nn-omni,nn-optimal,nn-cone --orbit 72 -o out
+  depthleap bench engine.nrrd --method rc-block,nn-omni --cells 1,2,4,8 -o out
   depthleap render --from out/results.json#3 -o again.png")]
 pub struct Bench {
     /// Scene files (.toml), volume files or builtin:NAME:SIZE
@@ -45,6 +46,9 @@ pub struct Bench {
     /// Forms of culling and marking
     #[arg(long, value_name = "WHICH", default_value = "one")]
     forms: Forms,
+    /// Run nn-* with cells of each of these sides, instead of --cell: what larger ones save in building and cost in frames
+    #[arg(long, value_name = "VOXELS,...", value_delimiter = ',')]
+    cells: Vec<u32>,
     /// Frames timed for each method; 0 counts only
     #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true)]
     repeats: usize,
@@ -84,6 +88,12 @@ impl Bench {
             self.method_options.apply(&mut settings);
             Ok(settings)
         };
+        if let Some(cell) = self.cells.iter().find(|cell| !CELLS.contains(cell)) {
+            return Err(Error::usage("--cells", format!("has {cell}"), "give some of 1, 2, 4 and 8 voxels"));
+        }
+        if self.orbit == Some(0) {
+            return Err(Error::usage("--orbit", "is 0", "give the number of frames for one turn"));
+        }
         let scenes: Vec<Settings> = self.scenes.iter().map(settings).collect::<Result<_>>()?;
         // Every scene is read and planned before the first is run: a wrong one costs nobody minutes.
         let mut opened: Option<Checked> = None;
@@ -116,14 +126,20 @@ impl Bench {
     fn variants(&self, checked: Option<&Checked>, settings: &Settings) -> Vec<MethodSettings> {
         let mut variants = Vec::new();
         for &name in &self.method {
-            let base = MethodSettings { name, ..settings.method.clone() };
             let forms = match self.forms {
                 Forms::One => Vec::new(),
                 Forms::All => Form::all(name).into_iter().filter(|form| available(checked, *form)).collect(),
             };
-            variants.extend(forms.iter().map(|f| MethodSettings { cull: f.cull, mark: f.mark, ..base.clone() }));
-            if forms.is_empty() {
-                variants.push(base);
+            let cells = match name.distance() {
+                Some(_) if !self.cells.is_empty() => &self.cells[..],
+                _ => &[settings.method.cell],
+            };
+            for &cell in cells {
+                let base = MethodSettings { name, cell, ..settings.method.clone() };
+                variants.extend(forms.iter().map(|f| MethodSettings { cull: f.cull, mark: f.mark, ..base.clone() }));
+                if forms.is_empty() {
+                    variants.push(base);
+                }
             }
         }
         variants

@@ -240,7 +240,16 @@ pub fn scene_name(settings: &Settings) -> String {
 }
 
 /// Every method that is shown for a scene when none is asked for.
-pub const BENCH_METHODS: [MethodName; 4] = [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni];
+pub const BENCH_METHODS: [MethodName; 8] = [
+    MethodName::Rc,
+    MethodName::RcErt,
+    MethodName::RcBlock,
+    MethodName::NnOmni,
+    MethodName::NnDirectional,
+    MethodName::NnCone,
+    MethodName::NnOptimal,
+    MethodName::NnOptimalFused,
+];
 
 /// `256,256,128` as sizes of a volume.
 fn counts(text: &str) -> Result<[usize; 3], String> {

@@ -1,5 +1,7 @@
 //! Runs of one scene side by side, measured against `rc-block`: the rows that every table shows.
 
+use std::fmt::Write;
+
 use super::number::{milliseconds, percent, thousands};
 use super::record::Run;
 use super::timing::Timing;
@@ -45,6 +47,9 @@ pub fn label(run: &Run) -> String {
     }
     if run.method.starts_with("nn-") && !run.settings.method.exit_lookahead {
         label.push_str(" (no lookahead)");
+    }
+    if run.method.starts_with("nn-") && run.settings.method.cell != 1 {
+        let _ = write!(label, " (cell {})", run.settings.method.cell);
     }
     label
 }
