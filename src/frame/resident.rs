@@ -167,7 +167,7 @@ impl Resident {
     pub fn build_ms(&self, plan: &Plan) -> Option<f64> {
         let distance = plan.distance.and_then(|lookup| self.distances.get(&lookup)).map(|built| built.ms);
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        let blocks = reads(Resource::BlockTable).then(|| self.blocks_ms).flatten();
+        let blocks = if reads(Resource::BlockTable) { self.blocks_ms } else { None };
         distance.or(blocks)
     }
 
