@@ -27,6 +27,24 @@ fn rejects_places_that_cannot_be_written() {
     place.refused("bench builtin:shells:16 missing.nrrd --method cpu -o new", 3, &["missing.nrrd"]);
 }
 
+#[test]
+fn reproduce_without_volumes_names_them_and_shows_the_papers_numbers() {
+    let place = driverless();
+    for data in ["", "--data nowhere"] {
+        let ended = place.run(&format!("reproduce {data} -o out"));
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        let text = ended.text();
+        assert!(text.contains("9,891,936") && text.contains("Foot") && !text.contains("over a factor"), "{text}");
+        let named = if data.is_empty() { "give the folder with fuel.nrrd as --data" } else { "fuel.nrrd is not there" };
+        assert!(text.contains(named), "{text}");
+        for file in ["reproduce.html", "reproduce.json", "reproduce.csv"] {
+            assert!(!place.read(&format!("out/{file}")).is_empty(), "{file}");
+        }
+    }
+    place.file("file", "x");
+    place.refused("reproduce -o file", 6, &["file", "choose another folder"]);
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error_and_a_reader_that_left_is_none() {

@@ -1,6 +1,8 @@
 //! From counts, times and pictures to tables, JSON, CSV and the report.
 
+mod orbits;
 mod pages;
 mod pictures;
 mod records;
+mod reproduce;
 mod runs;
