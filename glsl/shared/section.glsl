@@ -20,7 +20,7 @@ const float QUOTIENT_ROUNDING = exp2(-20.0);
 
 // Whole segments of M samples within `way` voxels, which begin at a first sample and end where the first sample lies
 // that may show something. At 255 voxels, the largest distance, rounding up reaches 3e-4 voxels; distances leave room
-// for more than that (SLACK in src/structure/distance.rs).
+// for more than that (SLACK in src/structure/grid.rs).
 uint passes_skipped(float way) {
     return uint(floor(way / frame.segment_voxels * (1.0 + QUOTIENT_ROUNDING)));
 }

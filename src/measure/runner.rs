@@ -312,14 +312,14 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
 }
 
 /// Whether the host builds the distances: where it is asked to, where the device has no room to, and on a device that is
-/// a CPU the transforms, at which the host is the faster (`cargo bench --bench structure`).
+/// a CPU, for which the host is the faster (`cargo bench --bench build`).
 pub(super) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
     let Some(lookup) = &plan.distance else { return false };
     match scene.settings.method.build {
         Builder::Host => true,
         _ if !distances::fits(device, &scene.field, lookup) => true,
         Builder::Device => false,
-        Builder::Auto => device.info.is_cpu() && lookup.view.is_none(),
+        Builder::Auto => device.info.is_cpu(),
     }
 }
 

@@ -239,7 +239,7 @@ pub struct MethodSettings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Builder {
-    /// The host for a device that is a CPU where it is the faster, else the device.
+    /// The host for a device that is a CPU, where it is the faster, else the device.
     #[default]
     Auto,
     /// Compute shaders, on the compute queue.
