@@ -58,7 +58,9 @@ const uint ENOUGH = 32u;
 const int WINDOW = 5;
 // A direction that changes a coordinate by less than this in a voxel bounds nothing.
 const float ALONG = 1e-6;
-// How much wider the cones of boxes of several cells are, and how far from the eye that is enough; in half diagonals.
+// How much wider cones are for what directions to points of a cell, or of a box of several, differ, and how far from the
+// eye that is enough; in half diagonals.
+const float WITHIN = 1.5;
 const float WIDER = 3.0;
 const float AWAY = 3.0;
 
@@ -255,7 +257,7 @@ uint distance_of(ivec3 box) {
     }
     bool cone = bundle.spread > 0.0;
     precise vec3 direction = from_eye / away;
-    precise float wider = scale() == 1 ? bundle.spread : bundle.spread + WIDER * (radius / away);
+    precise float wider = bundle.spread + (scale() == 1 ? WITHIN : WIDER) * (radius / away);
     precise vec3 spreads = cone ? vec3(wider) : half_side / away;
     precise float widening = cone ? wider : radius / away;
     precise float shortened = cone ? 1.0 : (away - radius) / away;

@@ -2,8 +2,9 @@
 //!
 //! `optimal` [Thesis §5.3.1]: the rays of a view, from the eye through any point of the cell. Departure: the thesis takes
 //! one direction for the whole view, which misses samples under perspective; here the bound holds for every ray through
-//! the cell's box. `cone` [Thesis §5.7]: the rays through the cell whose directions are within an angle of that from the
-//! eye to the cell's centre, so that the bound still holds when the camera has moved a little ([`Bundles::serves`]).
+//! the cell's box. `cone` [Thesis §5.7]: the rays through any point of the cell whose directions are within an angle of
+//! that from the eye to the point, so that the bound still holds when the camera has moved a little
+//! ([`LookupView::serves`]).
 //!
 //! Lengths are in voxels of the finest spacing, from the first voxel's centre. With m the centre of the cell's box, h its
 //! half sides and v the direction from the eye to m, all that rays of the bundle reach while the centre's goes the way l
@@ -11,7 +12,8 @@
 //!
 //! - `optimal`: everything grows with the distance from the eye, spread = h / |m - eye|, widening = |h| / |m - eye|; a
 //!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
-//! - `cone`: a unit vector within an angle t of v is within 2 sin(t/2) of it, which is spread on every axis, and widening.
+//! - `cone`: a unit vector within an angle t of another is within 2 sin(t/2) of it, and the directions to two points of the
+//!   box differ by less than [`WITHIN`] |h| / |m - eye|; their sum is spread on every axis, and widening.
 //!
 //! The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps: the
 //! box that a step sweeps is held against the interesting cells, and where one of a cell is among them, the way at which
@@ -52,9 +54,12 @@ const ALONG: f32 = 1e-6;
 /// Sides of the boxes that are searched, in cells.
 pub const SCALES: [usize; 3] = [4, 2, 1];
 
-/// How much wider the cones of boxes of several cells are, in |h| / |m - eye|. The directions to two points of a box
-/// differ by less than sqrt(2) |h| / |m - eye|; with what the next smaller boxes add on their part it stays below this
-/// where the eye is [`AWAY`] |h| or more from the box.
+/// How far directions to two points of a box may differ, in |h| / |m - eye|: an angle whose sine is x has a chord of at
+/// most sqrt(2) x.
+const WITHIN: f32 = 1.5;
+
+/// The same for boxes of several cells, with what the next smaller boxes add on their part, where the eye is [`AWAY`] |h|
+/// or more from the box.
 const WIDER: f32 = 3.0;
 const AWAY: f32 = 3.0;
 
@@ -171,7 +176,7 @@ impl Search<'_> {
         }
         let direction = way.map(|w| w / away);
         let cone = spread > 0.0;
-        let wider = if scale == 1 { spread } else { spread + WIDER * (radius / away) };
+        let wider = spread + if scale == 1 { WITHIN } else { WIDER } * (radius / away);
         let spreads = half.map(|h| if cone { wider } else { h / away });
         let widening = if cone { wider } else { radius / away };
         let shortened = if cone { 1.0 } else { (away - radius) / away };
@@ -318,20 +323,16 @@ impl Rays {
 impl LookupView {
     /// Whether distances made for this view hold for every ray of a camera at `eye` (volume space).
     ///
-    /// For the rays of the view alone that is its own eye. For a cone: a ray from the moved eye e' through a point p of
-    /// the cell with centre m has the direction p - e', which differs from m - e by at most |h| + |e' - e|; so the angle
-    /// between them is at most asin((|h| + |e' - e|) / |m - e|), and no cell's centre is nearer than the box of centres.
+    /// For the rays of the view alone that is its own eye. For a cone: a ray from the moved eye e' through a point p has the
+    /// direction p - e', which differs from p - e by |e' - e|; so the angle between them is at most
+    /// asin(|e' - e| / |p - e|), and no point is nearer than the volume's box.
     pub fn serves(&self, grid: &Grid, field: &Field, eye: glam::DVec3) -> bool {
-        let Some(half_angle) = self.half_angle else { return self.eye == eye };
+        let Some(half_angle) = self.half_angle.filter(|_| self.eye != eye) else { return self.eye == eye };
         let [made_for, moved] = [self.eye, eye].map(|eye| eye_in_voxels(grid, field, eye));
         let spacing = grid.sides / grid.cell as f64;
         let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
-        let (low, high) = (-0.5 * spacing, (dims - 0.5) * spacing);
-        // Border cells are larger by half a voxel, on both sides where there is but one.
-        let half = 0.5 * (grid.sides + spacing);
-        let nearest = made_for.clamp(low, high).distance(made_for);
-        let off = half.length() + made_for.distance(moved);
-        // A cell that is nearer than its own size falls back on distances in any direction; the others are what counts.
-        off < nearest * half_angle.sin() * (1.0 - f64::from(f32::EPSILON) * 16.0)
+        let nearest = made_for.clamp(-0.5 * spacing, (dims - 0.5) * spacing).distance(made_for);
+        // The sine of the angle is rounded to f32 in what the structure was made with.
+        made_for.distance(moved) < nearest * half_angle.sin() * (1.0 - 16.0 * f64::from(f32::EPSILON))
     }
 }
