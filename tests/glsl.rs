@@ -61,7 +61,7 @@ fn unknown_name_names_the_nearest() {
     for (wrong, near) in [
         ("main_pass.frag:plane", "main_pass.frag:plain"),
         ("near_neighbour.frag:copy", "near_neighbor.frag:copy"),
-        ("block_range.comp", "structure/cell_range.comp"),
+        ("structure/cell_ranges.comp", "structure/cell_range.comp"),
         ("entry", "entry.frag"),
     ] {
         let error = glsl::module(wrong).unwrap_err();

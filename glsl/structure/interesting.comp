@@ -34,8 +34,11 @@ const float CODE_ROUNDING = exp2(-22.0);
 const float SMALLEST = exp2(-126.0);
 
 bool visible(vec2 range) {
-    precise float by = range.x < range.y ? max(max(abs(range.x), abs(range.y)) * ROUNDING, SMALLEST)
-                                         : abs(range.x) * CODE_ROUNDING;
+    float relative = range.x < range.y ? ROUNDING : CODE_ROUNDING;
+    precise float by = max(max(abs(range.x), abs(range.y)) * relative, SMALLEST);
+    if (range.x == 0.0 && range.y == 0.0) {
+        by = 0.0;
+    }
     precise float low = range.x - by;
     precise float high = range.y + by;
     for (uint i = 0u; i < INTERVALS; ++i) {

@@ -23,8 +23,9 @@ pub const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 /// starts there.
 #[inline]
 pub fn widened(low: f32, high: f32) -> [f32; 2] {
-    let between = (low.abs().max(high.abs()) * ROUNDING).max(f32::MIN_POSITIVE);
-    let by = if low < high { between } else { low.abs() * CODE_ROUNDING };
+    let relative = if low < high { ROUNDING } else { CODE_ROUNDING };
+    let by = (low.abs().max(high.abs()) * relative).max(f32::MIN_POSITIVE);
+    let by = if low == 0.0 && high == 0.0 { 0.0 } else { by };
     [low - by, high + by]
 }
 
@@ -64,9 +65,15 @@ impl Support {
         Self(closed.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())
     }
 
-    /// The intervals; where nothing shows, one that nothing meets.
+    /// The intervals as a device may have them: one that begins just above 0 begins at the first normal number, since
+    /// devices may take smaller ones for 0, and [`widened`] reaches it from all that are not. Where nothing shows, one that
+    /// nothing meets.
     pub fn closed(&self) -> Vec<[f32; 2]> {
-        if self.0.is_empty() { vec![[f32::INFINITY, f32::NEG_INFINITY]] } else { self.0.clone() }
+        if self.0.is_empty() {
+            return vec![[f32::INFINITY, f32::NEG_INFINITY]];
+        }
+        let above = |x: f32| if x > 0.0 { x.max(f32::MIN_POSITIVE) } else { x };
+        self.0.iter().map(|[low, high]| [above(*low), -above(-high)]).collect()
     }
 
     /// Whether anything in `[low, high]` is visible.
