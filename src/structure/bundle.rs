@@ -13,7 +13,7 @@
 //! - `optimal`: everything grows with the distance from the eye, spread = h / |m - eye|, widening = |h| / |m - eye|; a
 //!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
 //! - `cone`: a unit vector within an angle t of another is within 2 sin(t/2) of it, and the directions to two points of the
-//!   box differ by less than [`WITHIN`] |h| / |m - eye|; their sum is spread on every axis, and widening.
+//!   box differ by less than `WITHIN` |h| / |m - eye|; their sum is spread on every axis, and widening.
 //!
 //! The way is searched by balls as long as the distance in any direction leaves room for one, else by short steps: the
 //! box that a step sweeps is held against the interesting cells, and where one of a cell is among them, the way at which
@@ -22,7 +22,7 @@
 //!
 //! Boxes of 4^3 and 2^3 cells are searched first, which ends at the first step that may meet something: what is free for
 //! all rays through one is free for those through each of its cells, whose search begins there. (Directions of a cone
-//! differ from box to box, so the cones of larger boxes are wider, by [`WIDER`].) Border cells reach out to the faces of
+//! differ from box to box, so the cones of larger boxes are wider, by `WIDER`.) Border cells reach out to the faces of
 //! the volume. In f32, operation by operation as in `glsl/structure/bundle.comp`, its twin.
 
 use rayon::prelude::*;
@@ -58,7 +58,7 @@ pub const SCALES: [usize; 3] = [4, 2, 1];
 /// most sqrt(2) x.
 const WITHIN: f32 = 1.5;
 
-/// The same for boxes of several cells, with what the next smaller boxes add on their part, where the eye is [`AWAY`] |h|
+/// The same for boxes of several cells, with what the next smaller boxes add on their part, where the eye is `AWAY` |h|
 /// or more from the box.
 const WIDER: f32 = 3.0;
 const AWAY: f32 = 3.0;

@@ -32,7 +32,7 @@ pub fn square_of(count: u32, weight: u32, reach: u32) -> u32 {
     if count < reach { count * count * weight } else { FAR_SQUARED }
 }
 
-/// Whole voxels within the root of a square less [`SLACK`](super::grid::SLACK): the largest d of at most 255 with
+/// Whole voxels within the root of a square less [`SLACK`]: the largest d of at most 255 with
 /// d = 0 or (d + 1/512)^2 `UNIT` <= square.
 #[inline]
 pub fn free_voxels(square: u32) -> u8 {
