@@ -1,5 +1,7 @@
 //! `optimal` and `cone`: the bounds they promise, how near they come to the truth, and for whom a cone holds.
 
+mod random;
+
 use depthleap::scene::Field;
 use depthleap::scene::Volume;
 use depthleap::scene::field::NanPolicy;
@@ -10,19 +12,9 @@ use depthleap::structure::distance::omni;
 use depthleap::structure::grid::{DistanceField, FAR, Grid, OCTANTS, SLACK, octant_of};
 use depthleap::structure::octants::directional;
 use glam::DVec3;
-
-struct Random(u64);
+use random::Random;
 
 impl Random {
-    /// Uniform in [0, 1) (splitmix64).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     fn below(&mut self, n: usize) -> usize {
         (self.next() * n as f64) as usize
     }

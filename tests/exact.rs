@@ -1,5 +1,7 @@
 //! The exact integrator against closed forms, independent quadrature and its own invariants.
 
+mod random;
+
 use depthleap::math::interpolate::trilinear;
 use depthleap::math::opacity::{composite, corrected_opacity, extinction};
 use depthleap::math::ray::{ViewRays, box_interval};
@@ -9,6 +11,7 @@ use depthleap::scene::transfer::Knot;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Camera, Field, TransferFunction, Volume};
 use glam::{DVec3, dvec3};
+use random::Random;
 
 /// The integrator's own tolerance, with as much again for the rounding of the closed form.
 const TIGHT: f64 = 2e-10;
@@ -47,18 +50,7 @@ fn assert_near(found: [f64; 4], expected: [f64; 4], tolerance: f64) {
     assert!(error <= tolerance, "found {found:?}, expected {expected:?}, error {error:e} above {tolerance:e}");
 }
 
-struct Random(u64);
-
 impl Random {
-    /// Uniform in [0, 1) (splitmix64).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     fn place(&mut self, dims: [usize; 3]) -> DVec3 {
         DVec3::from_array(dims.map(|n| n as f64 * self.next()))
     }

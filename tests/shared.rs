@@ -1,6 +1,8 @@
 //! Structs that Rust and the shaders both know: every member has the same name, offset and size on both sides, and
 //! the pieces of a transfer function say what the function says.
 
+mod random;
+
 use std::collections::HashMap;
 use std::mem::offset_of;
 
@@ -11,6 +13,7 @@ use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
 use depthleap::shared::{Bundle, Frame, Piece, Slice, Step, pieces};
+use random::Random;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
 
@@ -246,18 +249,7 @@ fn every_alteration_of_a_layout_is_seen() {
     }
 }
 
-struct Random(u64);
-
 impl Random {
-    /// Uniform in [0, 1) (splitmix64).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     fn below(&mut self, n: usize) -> usize {
         (self.next() * n as f64) as usize
     }

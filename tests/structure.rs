@@ -1,5 +1,7 @@
 //! Interesting cells, distances and blocks against obvious twins, and the bounds they promise.
 
+mod random;
+
 use depthleap::math::interpolate::trilinear;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::transfer::Knot;
@@ -12,19 +14,9 @@ use depthleap::structure::grid::{FAR, Grid, OCTANTS};
 use depthleap::structure::octants::directional;
 use depthleap::structure::square::{FAR_SQUARED, UNIT, reach, weight};
 use glam::DVec3;
-
-struct Random(u64);
+use random::Random;
 
 impl Random {
-    /// Uniform in [0, 1) (splitmix64).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     fn below(&mut self, n: usize) -> usize {
         (self.next() * n as f64) as usize
     }

@@ -54,7 +54,8 @@ impl Background {
     /// # Errors
     /// What the driver reports.
     pub fn serve(&mut self, frame: usize, scene: &Scene, resident: &mut Resident) -> Result<Option<Served>> {
-        if let Some(coming) = self.coming.take_if(|coming| coming.pending.job.finished().unwrap_or(true)) {
+        let ended = self.coming.as_ref().map_or(Ok(false), |coming| coming.pending.job.finished())?;
+        if let Some(coming) = self.coming.take_if(|_| ended) {
             self.lead = (frame - coming.begun).max(1);
             let lookup = coming.pending.lookup;
             let ms = coming.pending.job.device_ms()?.unwrap_or(0.0);

@@ -9,7 +9,7 @@ use cpu_time::ProcessTime;
 
 use super::build::{self, Given, Job};
 use super::pipelines::Pipelines;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::pass::Step;
 use crate::pass::build as steps;
 use crate::pass::resource::Resource;
@@ -282,9 +282,6 @@ pub fn fits(device: &Device, field: &Field, lookup: &Lookup) -> bool {
 /// The texture that frames read; `shared` where builds read it too.
 pub fn distance_image(device: &Arc<Device>, grid: &Grid, octants: usize, shared: bool) -> Result<Image> {
     let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    if octants != 1 && octants != OCTANTS {
-        return Err(Error::device(&device.info.name, format!("{octants} octants"), "use 1 or 8"));
-    }
     let info = ImageInfo {
         name: Resource::NearestDistance.name().to_owned(),
         extent: grid.cells.map(side),

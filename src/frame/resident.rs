@@ -239,7 +239,7 @@ impl Resident {
                 format,
                 usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
                 volume: resource != Resource::BlockTable,
-                shared: false,
+                shared: resource != Resource::BlockTable,
             },
         )?;
         upload::image(&self.device, &image, bytes)?;

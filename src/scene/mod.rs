@@ -4,6 +4,7 @@ pub mod builtin;
 pub mod camera;
 pub mod field;
 mod fixed;
+pub mod method;
 pub mod settings;
 pub mod transfer;
 pub mod volume;

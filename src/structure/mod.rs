@@ -32,7 +32,7 @@ pub struct Lookup {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookupView {
     pub eye: DVec3,
-    /// Half-angle of the cone about each cell's view direction, radians; none for the view's own rays only.
+    /// Half-angle of the cone about the direction from the eye to each point, radians; none for the view's own rays only.
     pub half_angle: Option<f64>,
 }
 

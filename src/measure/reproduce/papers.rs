@@ -68,72 +68,66 @@ const fn row(row: Row, main: u64, intermediate: u64) -> Published {
     Published { row, main, intermediate }
 }
 
-const CHAPTER_5: &str = "Thesis §5.4, Tables 1 and 2";
+/// The columns of chapter 5 for volumes of 256^3, but for what each has of its own.
+const LARGE: DataSet = DataSet {
+    name: "",
+    source: "Thesis §5.4, Tables 1 and 2",
+    file: None,
+    remark: None,
+    side: 256,
+    step: 0.004,
+    face: 428,
+    intermediate_passes: 54,
+    rows: &[],
+};
+
+/// And for 64^3.
+const SMALL: DataSet = DataSet { side: 64, step: 0.016, intermediate_passes: 13, ..LARGE };
 
 pub const DATA_SETS: [DataSet; 7] = [
     DataSet {
         name: "MRI-Head",
-        source: CHAPTER_5,
-        file: None,
         remark: Some("the volren.org scan of that name is not to be had; mri_head.nrrd is another head"),
-        side: 256,
-        step: 0.004,
-        face: 428,
-        intermediate_passes: 54,
         rows: &[
             row(Row::Block, 869_293, 9_891_936),
             row(Row::Optimal, 181_139, 534_272),
             row(Row::Omni, 744_754, 1_218_485),
             row(Row::Directional, 725_099, 1_458_291),
         ],
+        ..LARGE
     },
     DataSet {
         name: "Foot",
-        source: CHAPTER_5,
-        file: None,
         remark: Some("the Philips scan is not to be had; foot_cadaver.nrrd is another foot"),
-        side: 256,
-        step: 0.004,
-        face: 428,
-        intermediate_passes: 54,
         rows: &[
             row(Row::Block, 538_173, 9_891_936),
             row(Row::Optimal, 159_380, 427_510),
             row(Row::Omni, 455_547, 2_134_119),
             row(Row::Directional, 410_729, 1_856_402),
         ],
+        ..LARGE
     },
     DataSet {
         name: "Engine",
-        source: CHAPTER_5,
         file: Some("engine_256cube.nrrd"),
-        remark: None,
-        side: 256,
-        step: 0.004,
-        face: 428,
-        intermediate_passes: 54,
         rows: &[
             row(Row::Block, 309_097, 9_891_936),
             row(Row::Optimal, 65_927, 274_393),
             row(Row::Omni, 186_059, 1_552_627),
             row(Row::Directional, 178_331, 1_367_713),
         ],
+        ..LARGE
     },
     DataSet {
         name: "Fuel",
-        source: CHAPTER_5,
         file: Some("fuel.nrrd"),
-        remark: None,
-        side: 64,
-        step: 0.016,
-        face: 428,
-        intermediate_passes: 13,
         rows: &[
             row(Row::Block, 299_356, 2_381_392),
             row(Row::Optimal, 31_220, 244_118),
             row(Row::Omni, 155_011, 1_106_584),
             row(Row::Directional, 131_495, 916_156),
         ],
+        ..SMALL
     },
     DataSet {
         name: "Chapter 7",
@@ -142,38 +136,28 @@ pub const DATA_SETS: [DataSet; 7] = [
         remark: Some(
             "the thesis shows this scene in a figure only; 13 passes fit a 64^3 volume, and fuel is our guess",
         ),
-        side: 64,
-        step: 0.016,
         face: 194,
-        intermediate_passes: 13,
         rows: &[
             row(Row::Block, 89_603, 489_268),
             row(Row::Optimal, 6_691, 51_992),
             row(Row::Omni, 69_330, 315_061),
             row(Row::Directional, 60_162, 296_217),
         ],
+        ..SMALL
     },
     DataSet {
         name: "mri_head",
         source: "not in the thesis",
         file: Some("mri_head.nrrd"),
         remark: Some("another head than the thesis', with its parameters"),
-        side: 256,
-        step: 0.004,
-        face: 428,
-        intermediate_passes: 54,
-        rows: &[],
+        ..LARGE
     },
     DataSet {
         name: "aneurism",
         source: "not in the thesis",
         file: Some("aneurism.nrrd"),
         remark: Some("vessels, with the thesis' parameters"),
-        side: 256,
-        step: 0.004,
-        face: 428,
-        intermediate_passes: 54,
-        rows: &[],
+        ..LARGE
     },
 ];
 

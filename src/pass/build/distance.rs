@@ -4,7 +4,7 @@ use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
 use crate::pass::resource::Resource;
 use crate::pass::{Step, Work};
 use crate::shared::Slice;
-use crate::structure::grid::{Grid, OCTANTS};
+use crate::structure::grid::Grid;
 use crate::structure::square::{reach, weight};
 
 const SHADER_X: &str = "structure/distance_x.comp";
@@ -14,8 +14,6 @@ const SHADER_SCAN: &str = "structure/distance_scan.comp";
 pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
     // Each column is read before it is written, so one buffer does.
     let squares = Resource::Squares;
-    let mut pack = slice(grid, words_of_bytes(grid.cells));
-    pack.cell = 1;
     vec![
         first_axis(grid, "distance_x".to_owned(), "both", squares, 0),
         scan(grid, "distance_y".to_owned(), "both", 1, [squares, squares], 0),
@@ -25,7 +23,7 @@ pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
             "structure/distance_pack.comp",
             &[("squares", squares)],
             &[("distance_bytes", Resource::DistanceBytes)],
-            pack,
+            slice(grid, words_of_bytes(grid.cells)),
             4,
         ),
         unpack(to),
@@ -42,7 +40,6 @@ pub fn directional(grid: &Grid) -> Vec<Step> {
             let through = [Resource::Squares, Resource::SquaresAfter];
             steps.push(scan(grid, name("y", xy), "one", 1, through, xy));
             for octant in [xy, xy | 4] {
-                debug_assert!(octant < OCTANTS);
                 let through = [Resource::SquaresAfter, Resource::DistanceBytes];
                 steps.push(scan(grid, name("z", octant), "octant", 2, through, octant));
             }
