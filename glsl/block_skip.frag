@@ -34,23 +34,14 @@ bool block_visible(ivec3 block) {
     return texelFetch(block_table, range_codes(range), 0).r != 0u;
 }
 
-// Steps from `place` until a ray of `stride` voxels a step leaves `block`.
-float steps_inside(Place place, vec3 stride, ivec3 block) {
-    // Block b covers the cells 8b to 8b + 7, from voxel centre 8b to 8b + 8.
-    vec3 face = float(BLOCK) * vec3(block + ivec3(greaterThan(stride, vec3(0.0))));
-    vec3 steps = mix(((face - place.below) - place.weight) / stride, vec3(1e9), equal(stride, vec3(0.0)));
-    return min(steps.x, min(steps.y, steps.z));
-}
-
 bool segment_visible(Ray ray, uint first, uint end) {
-    vec3 stride = ray.step_vector * frame.dims.xyz;
     for (uint i = first; i < end;) {
         Place place = sample_place(ray, i);
         ivec3 block = cell_of(place) / BLOCK;
         if (block_visible(block)) {
             return true;
         }
-        i += uint(max(floor(steps_inside(place, stride, block) - BOUNDARY), 0.0)) + 1u;
+        i += uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0)) + 1u;
     }
     return false;
 }

@@ -45,7 +45,7 @@
 layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
 
 // More than the blend unit may take from an opacity (BLEND_ROUNDING in src/reference/fused.rs).
-layout(constant_id = 9) const float BLEND_ROUNDING = 0.0;
+layout(constant_id = 10) const float BLEND_ROUNDING = 0.0;
 
 layout(location = 0) out vec4 contribution;
 

@@ -9,7 +9,7 @@ use depthleap::scene::volume::Voxels;
 use depthleap::structure::LookupView;
 use depthleap::structure::bundle::{Bundles, along};
 use depthleap::structure::distance::omni;
-use depthleap::structure::grid::{DistanceField, FAR, Grid, OCTANTS, SLACK, octant_of};
+use depthleap::structure::grid::{DistanceField, FAR, Grid, OCTANTS, SLACK, byte_of, octant_of};
 use depthleap::structure::octants::directional;
 use glam::DVec3;
 use random::Random;
@@ -197,10 +197,11 @@ fn assert_bounds(seed: u64, cone: bool, ray: impl Fn(&mut Random, &Case, &Lookup
         let half_angle = cone.then(|| [0.01, 1.0, 10.0, 30.0, 60.0][random.below(5)]).map(f64::to_radians);
         let view = LookupView { eye: random_eye(&mut random, &case.space), half_angle };
         let found = made(&case.field, &case.grid, &case.mask, &view);
-        assert_eq!((found.octants, found.distances.len()), (1, case.grid.count()));
+        assert_eq!((found.octants, found.bytes.len()), (1, case.grid.count()));
         for _ in 0..400 {
             let cell = case.any_cell(&mut random, &view);
-            let bound = found.distances[case.grid.index(cell)];
+            let bound = found.bytes[case.grid.index(cell)].saturating_sub(1);
+            assert_eq!(found.bytes[case.grid.index(cell)] == 0, case.mask[case.grid.index(cell)]);
             let from = point(&mut random, case.space.cell(&case.grid, cell));
             let Some(direction) = ray(&mut random, &case, &view, from).filter(|_| bound > 0) else { continue };
             jumped += 1;
@@ -282,12 +283,12 @@ fn bounds_of_a_cell_stand_in_order() {
         let wide = made(&case.field, &case.grid, &case.mask, &view(Some(0.4)));
         let narrow = made(&case.field, &case.grid, &case.mask, &view(Some(0.02)));
         for i in 0..case.grid.count() {
-            let any = any.distances[i];
-            assert!(each.distances[i * OCTANTS..][..OCTANTS].iter().all(|one| *one >= any));
-            let [wide, narrow, optimal] = [&wide, &narrow, &optimal].map(|made| made.distances[i]);
+            let any = any.bytes[i];
+            assert!(each.bytes[i * OCTANTS..][..OCTANTS].iter().all(|one| *one >= any));
+            let [wide, narrow, optimal] = [&wide, &narrow, &optimal].map(|made| made.bytes[i]);
             assert!(any <= wide && any <= optimal, "{any}, {wide}, {optimal}");
             // Where the search of a larger box has found enough, neither goes on.
-            assert!(wide.min(32) <= narrow.min(32) + 1, "{wide}, {narrow}");
+            assert!(wide.min(33) <= narrow.min(33) + 1, "{wide}, {narrow}");
         }
     }
 }
@@ -332,7 +333,7 @@ fn optimal_is_as_long_as_a_bundle_can_be() {
             let length = scaled_until_touch(&case, eye, place(&case.grid, i));
             // Farther than that the search of a larger box may do.
             let whole = (length - SLACK).clamp(0.0, 32.0).floor();
-            let less = whole - f64::from(found.distances[i]);
+            let less = whole - f64::from(found.bytes[i].saturating_sub(1));
             loss += less.max(0.0);
             shorter += usize::from(less > 0.0);
             cells += 1;
@@ -354,10 +355,10 @@ fn optimal_looks_along_the_rays_only() {
     let eye = DVec3::new(-0.001, 0.0, 3.0);
     let view = LookupView { eye, half_angle: None };
     let found = made(&f, &grid, &mask, &view);
-    assert_eq!(found.at([0, 1, 150], 0), FAR, "leaves by the near side");
+    assert_eq!(found.free([0, 1, 150], 0), Some(FAR), "leaves by the near side");
     assert_eq!(octant_of(DVec3::ZERO - eye), 4);
-    assert_eq!(omni(&grid, &mask).at([1, 1, 150], 0), 0);
-    assert_eq!(found.at([2, 1, 150], 0), 0);
+    assert_eq!(omni(&grid, &mask).free([1, 1, 150], 0), Some(0));
+    assert_eq!(found.free([2, 1, 150], 0), None);
 }
 
 #[test]
@@ -368,8 +369,8 @@ fn nothing_interesting_is_far_and_everything_is_near() {
         for half_angle in [None, Some(0.1)] {
             let view = LookupView { eye: DVec3::new(0.3, 0.2, 4.0), half_angle };
             let count = grid.count();
-            assert_eq!(made(&f, &grid, &vec![false; count], &view).distances, vec![FAR; count]);
-            assert_eq!(made(&f, &grid, &vec![true; count], &view).distances, vec![0; count]);
+            assert_eq!(made(&f, &grid, &vec![false; count], &view).bytes, vec![byte_of(false, FAR); count]);
+            assert_eq!(made(&f, &grid, &vec![true; count], &view).bytes, vec![0; count]);
         }
     }
 }

@@ -60,7 +60,7 @@ fn frame() -> Layout {
         offset,
         termination,
         exponent,
-        segment_voxels,
+        step_voxels,
         passes,
     })
 }

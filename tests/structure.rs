@@ -10,7 +10,7 @@ use depthleap::scene::{Field, TransferFunction, Volume};
 use depthleap::structure::blocks::{BLOCK, CODES, range_codes, ranges, visibility_table};
 use depthleap::structure::cells::{self, Support, Values, widened};
 use depthleap::structure::distance::omni;
-use depthleap::structure::grid::{FAR, Grid, OCTANTS};
+use depthleap::structure::grid::{FAR, Grid, OCTANTS, byte_of};
 use depthleap::structure::octants::directional;
 use depthleap::structure::square::{FAR_SQUARED, UNIT, reach, weight};
 use glam::DVec3;
@@ -167,7 +167,8 @@ fn brute_force(
             let targets = targets.iter().filter(|there| (0..3).all(|axis| reachable(axis, here[axis], there[axis])));
             let square = targets.map(square).min().unwrap_or(u64::MAX);
             let within = |d: &u64| *d == 0 || d * d * u64::from(UNIT) + 32 * d < square;
-            (0..=255u64).rev().find(within).unwrap_or(0) as u8
+            let free = (0..=254u64).rev().find(within).unwrap_or(0) as u8;
+            if interesting[i] { 0 } else { free + 1 }
         })
         .collect()
 }
@@ -175,13 +176,13 @@ fn brute_force(
 #[track_caller]
 fn assert_exact(cells: [usize; 3], sides: DVec3, interesting: &[bool]) {
     let found = omni(&grid(cells, sides), interesting);
-    assert_eq!(found.distances, brute_force(cells, sides, interesting, |_, _, _| true), "omni of {cells:?}, {sides}");
+    assert_eq!(found.bytes, brute_force(cells, sides, interesting, |_, _, _| true), "omni of {cells:?}, {sides}");
     let found = directional(&grid(cells, sides), interesting);
     for octant in 0..OCTANTS {
         let reachable = |axis: usize, here: usize, there: usize| {
             if octant >> axis & 1 == 0 { there >= here } else { there <= here }
         };
-        let of_octant: Vec<u8> = found.distances.iter().copied().skip(octant).step_by(OCTANTS).collect();
+        let of_octant: Vec<u8> = found.bytes.iter().copied().skip(octant).step_by(OCTANTS).collect();
         let expected = brute_force(cells, sides, interesting, reachable);
         assert_eq!(of_octant, expected, "octant {octant} of {cells:?}, {sides}");
     }
@@ -242,9 +243,12 @@ fn far_distances_saturate() {
         cells[axis] = 600;
         let mut scale = DVec3::ONE;
         scale[axis] = f64::from(sides);
-        let found = omni(&grid(cells, scale), &mask).distances;
+        let found = omni(&grid(cells, scale), &mask).bytes;
         let expected: Vec<u8> = (0..600usize)
-            .map(|i| (i.abs_diff(10).saturating_sub(1) * sides as usize).saturating_sub(1).min(255) as u8)
+            .map(|i| match i.abs_diff(10) {
+                0 => 0,
+                apart => ((apart - 1) * sides as usize).saturating_sub(1).min(254) as u8 + 1,
+            })
             .collect();
         assert_eq!(found, expected, "axis {axis}, side {sides}");
     }
@@ -254,8 +258,8 @@ fn far_distances_saturate() {
 fn nothing_interesting_is_far_and_everything_is_near() {
     for cells in SHAPES {
         let count = cells.iter().product();
-        assert_eq!(omni(&grid(cells, DVec3::ONE), &vec![false; count]).distances, vec![FAR; count]);
-        assert_eq!(omni(&grid(cells, DVec3::ONE), &vec![true; count]).distances, vec![0; count]);
+        assert_eq!(omni(&grid(cells, DVec3::ONE), &vec![false; count]).bytes, vec![byte_of(false, FAR); count]);
+        assert_eq!(omni(&grid(cells, DVec3::ONE), &vec![true; count]).bytes, vec![0; count]);
     }
 }
 
@@ -276,7 +280,7 @@ fn bound_holds_at_random_points_between_voxels() {
         let (mut tested, mut jumped) = (0, 0);
         for _ in 0..300_000 {
             let here = DVec3::from_array(dims.map(|n| n as f64 * random.next()));
-            let reach = f64::from(distances.at(f.cell_at(here), 0));
+            let reach = distances.free(f.cell_at(here), 0).map_or(0.0, f64::from);
             jumped += usize::from(reach > 0.0);
             let z = 2.0 * random.next() - 1.0;
             let (sin, cos) = (std::f64::consts::TAU * random.next()).sin_cos();

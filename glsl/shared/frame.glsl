@@ -28,8 +28,8 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     float termination;
     // step / reference length: the exponent of the opacity correction.
     float exponent;
-    // Length of a main pass' segment, M * step, in voxels of the finest spacing.
-    float segment_voxels;
+    // Distance between samples in voxels of the finest spacing.
+    float step_voxels;
     // N, main passes of this frame.
     uint passes;
 } frame;

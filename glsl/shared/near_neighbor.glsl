@@ -1,12 +1,13 @@
 // Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next. Twin: src/reference/near_neighbor.rs.
 // Needs frame.glsl, mark.glsl, double_float.glsl, samples.glsl and section.glsl.
 //
-// Departures: 1. distances are bounds for the trilinear footprint, not from voxel to voxel. 2. EXIT_LOOKAHEAD:
-// a ray that will have left the volume by then is dead at once. 3. all samples within the distance are free, so the
-// first that may show something is a step beyond the last of them.
+// Departures: 1. distances are bounds for the trilinear footprint, not from voxel to voxel; and since they hold from
+// everywhere in a cell, they are counted from where the ray leaves its cell. 2. All samples that lie within are free, so
+// the first that may show something is a step beyond the last of them. 3. EXIT_LOOKAHEAD: a ray that has no sample left
+// by then is dead at once. 4. LOOKUPS: a ray whose next work would lie in the same segment may look again from there.
 
-// Lower bound of the distance to the nearest interesting cell, in voxels of the finest spacing: a byte, or eight bytes
-// in two words, one for each octant.
+// Of each cell a byte, or eight bytes in two words, one for each octant: 0 where the cell is interesting, else one more
+// than the voxels of the finest spacing that a ray may go from anywhere in the cell.
 layout(set = 0, binding = 10) uniform usampler3D nearest_distance;
 
 layout(constant_id = 6) const bool EXIT_LOOKAHEAD = true;
@@ -14,29 +15,50 @@ layout(constant_id = 6) const bool EXIT_LOOKAHEAD = true;
 layout(constant_id = 7) const int CELL = 1;
 // The structure tells octants apart.
 layout(constant_id = 8) const bool OCTANTS = false;
+// How often a ray may look in a segment.
+layout(constant_id = 9) const uint LOOKUPS = 1;
 
-// Voxels that are free from sample `i` on, along the ray.
-float free_distance(Ray ray, uint i) {
-    uvec2 texel = texelFetch(nearest_distance, cell_of(sample_place(ray, i)) / CELL, 0).rg;
+// The largest distance there is, and the longest way inside a cell that is counted, in voxels.
+const float FAR = 254.0;
+
+// The byte of the structure's cell `box`.
+uint byte_of(Ray ray, ivec3 box) {
+    uvec2 texel = texelFetch(nearest_distance, box, 0).rg;
     if (!OCTANTS) {
-        return float(texel.x);
+        return texel.x;
     }
     uvec3 down = uvec3(lessThan(ray.step_vector, vec3(0.0)));
-    return float(bitfieldExtract(down.z == 0u ? texel.x : texel.y, int(8u * (down.x + 2u * down.y)), 8));
+    return bitfieldExtract(down.z == 0u ? texel.x : texel.y, int(8u * (down.x + 2u * down.y)), 8);
+}
+
+// Samples from `i` on that show nothing.
+uint free_from(Ray ray, uint i) {
+    Place place = sample_place(ray, i);
+    ivec3 box = cell_of(place) / CELL;
+    uint byte = byte_of(ray, box);
+    if (byte == 0u) {
+        return 0u;
+    }
+    float inside = min(steps_inside(ray, place, box, CELL) * frame.step_voxels, FAR);
+    return free_samples(inside + float(byte - 1u));
 }
 
 // The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
 uint next_section(Ray ray, uint section) {
-    uint first = section * SAMPLES_PER_PASS;
-    if (first >= ray.samples) {
+    uint i = section * SAMPLES_PER_PASS;
+    uint end = min(i + SAMPLES_PER_PASS, ray.samples);
+    if (i >= end) {
         return frame.passes;
     }
-    float free = free_distance(ray, first);
-    float step_voxels = frame.segment_voxels / float(SAMPLES_PER_PASS);
-    // At distance 0 the first sample itself may show something.
-    uint next = section + passes_skipped(free > 0.0 ? free + step_voxels : 0.0);
-    bool gone = EXIT_LOOKAHEAD && next * SAMPLES_PER_PASS >= ray.samples;
-    return gone ? frame.passes : min(next, frame.passes);
+    for (uint looked = 0u; looked < LOOKUPS && i < end; ++looked) {
+        uint free = free_from(ray, i);
+        if (free == 0u) {
+            break;
+        }
+        i += free;
+    }
+    bool gone = EXIT_LOOKAHEAD && i >= ray.samples;
+    return gone ? frame.passes : min(i / SAMPLES_PER_PASS, frame.passes);
 }
 
 // The depth that says so; `arrived` when it is the section of the pass that marks.

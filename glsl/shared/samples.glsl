@@ -73,3 +73,20 @@ ivec3 cell_of(Place place) {
     ivec3 last = max(ivec3(frame.dims.xyz) - 2, ivec3(0));
     return clamp(ivec3(place.below), ivec3(0), last);
 }
+
+// More steps than a ray has.
+const float UNBOUNDED = 1e9;
+
+// Steps from a place until the ray leaves the box of `side`^3 cells it lies in; UNBOUNDED where it leaves the volume
+// with it.
+float steps_inside(Ray ray, Place place, ivec3 box, int side) {
+    ivec3 last = max(ivec3(frame.dims.xyz) - 2, ivec3(0)) / side;
+    vec3 stride = ray.step_vector * frame.dims.xyz;
+    bvec3 up = greaterThan(stride, vec3(0.0));
+    // Box b covers the cells from side b on, from voxel centre to voxel centre.
+    vec3 face = float(side) * vec3(box + ivec3(up));
+    vec3 steps = ((face - place.below) - place.weight) / stride;
+    steps = mix(steps, vec3(UNBOUNDED), equal(box, mix(ivec3(0), last, up)));
+    steps = mix(steps, vec3(UNBOUNDED), equal(stride, vec3(0.0)));
+    return max(min(steps.x, min(steps.y, steps.z)), 0.0);
+}

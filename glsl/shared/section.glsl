@@ -15,12 +15,12 @@ float section_depth(uint section, bool arrived) {
     return (float(section) + (arrived ? ARRIVED : AHEAD)) / (2.0 * float(frame.passes));
 }
 
-// What f32 may take from a quotient of a whole number and a segment, relative, the segment's own rounding included.
+// What f32 may take from a quotient of a whole number and a step, relative, the step's own rounding included.
 const float QUOTIENT_ROUNDING = exp2(-20.0);
 
-// Whole segments of M samples within `way` voxels, which begin at a first sample and end where the first sample lies
-// that may show something. At 255 voxels, the largest distance, rounding up reaches 3e-4 voxels; distances leave room
-// for more than that (SLACK in src/structure/grid.rs).
-uint passes_skipped(float way) {
-    return uint(floor(way / frame.segment_voxels * (1.0 + QUOTIENT_ROUNDING)));
+// Samples that show nothing, from one on from which `way` voxels are free: those no farther from it, itself among them.
+// Where rounding up may take in another, a way is of 508 voxels at the most, and grows by 5e-4; distances leave room for
+// more (SLACK in src/structure/grid.rs).
+uint free_samples(float way) {
+    return uint(floor(way / frame.step_voxels * (1.0 + QUOTIENT_ROUNDING))) + 1u;
 }

@@ -15,10 +15,13 @@ bool within(uint voxels, uint square) {
     return voxels == 0u || square > voxels * voxels * UNIT + 32u * voxels;
 }
 
-// Whole voxels within the root of a square, at most 255.
+// The largest distance kept.
+const uint FAR = 254u;
+
+// Whole voxels within the root of a square, at most FAR.
 uint free_voxels(uint square) {
     // A root of f32 is off by less than 1; within() decides.
-    uint voxels = min(uint(sqrt(float(square) / float(UNIT))), 254u) + 1u;
+    uint voxels = min(uint(sqrt(float(square) / float(UNIT))), FAR - 1u) + 1u;
     while (!within(voxels, square)) {
         --voxels;
     }

@@ -23,7 +23,7 @@ layout(set = 0, binding = 0, std140) uniform Bundle {
     float short_step;
 } bundle;
 
-// Distance in any direction, whole voxels.
+// Distance in any direction: 0 for interesting cells, else whole voxels and one more.
 layout(set = 0, binding = 10) uniform usampler3D omni_distance;
 // Interesting cells, and any among 2^3, and 4^3, from each cell on.
 layout(set = 0, binding = 11, std430) readonly buffer Interesting {
@@ -39,7 +39,7 @@ layout(set = 0, binding = 14, std430) writeonly buffer DistanceBytes {
     uint words[];
 } distance_bytes;
 #ifdef LARGER
-// The same of boxes twice as large.
+// The same of boxes twice as large, which are not said to be interesting.
 layout(set = 0, binding = 15, std430) readonly buffer Larger {
     uint words[];
 } larger;
@@ -49,7 +49,8 @@ layout(set = 0, binding = 15, std430) readonly buffer Larger {
 const float MARGIN = 1.0 / 512.0;
 // Steps before the search ends where it is.
 const uint STEPS = 1024u;
-const uint FAR = 255u;
+// The largest distance kept.
+const uint FAR = 254u;
 // More than any distance that is told apart, in voxels.
 const float BEYOND = 257.0;
 // So many voxels, known of the larger box, are not searched for more.
@@ -77,12 +78,20 @@ ivec3 boxes() {
     return (cells() + scale() - 1) / scale();
 }
 
+uint free_of(uint byte) {
+    return max(byte, 1u) - 1u;
+}
+
+uint omni_at(ivec3 cell) {
+    return free_of(texelFetch(omni_distance, cell, 0).r);
+}
+
 #ifdef LARGER
 uint of_larger(ivec3 box) {
     ivec3 at = box / 2;
     ivec3 count = (cells() + 2 * scale() - 1) / (2 * scale());
     uint word = uint((at.z * count.y + at.y) * ((count.x + 3) / 4) + at.x / 4);
-    return bitfieldExtract(larger.words[word], 8 * (at.x & 3), 8);
+    return free_of(bitfieldExtract(larger.words[word], 8 * (at.x & 3), 8));
 }
 #endif
 
@@ -232,13 +241,14 @@ float nearest_of(ivec3 at, Rays rays, ivec3 first, ivec3 last, float free, float
     return nearest;
 }
 
-uint distance_of(ivec3 box) {
+// Voxels that are free along every ray of the box.
+uint free_from(ivec3 box) {
 #ifdef LARGER
     uint known = of_larger(box);
 #else
     const uint known = 0u;
 #endif
-    uint least = scale() == 1 ? max(known, texelFetch(omni_distance, box, 0).r) : known;
+    uint least = scale() == 1 ? max(known, omni_at(box)) : known;
     if (known >= ENOUGH) {
         return least;
     }
@@ -281,7 +291,7 @@ uint distance_of(ivec3 box) {
             nearest = free * shortened;
             break;
         }
-        float omni = float(texelFetch(omni_distance, cell_of(here), 0).r);
+        float omni = float(omni_at(cell_of(here)));
         precise float room = omni - (radius + widening * free) - MARGIN;
         if (room > short_step) {
             free += room / (1.0 + widening);
@@ -319,7 +329,9 @@ void main() {
     uint row = index / in_row;
     uint word = 0u;
     for (uint x = begin; x < end; ++x) {
-        word |= distance_of(ivec3(x, row % uint(count.y), row / uint(count.y))) << (8u * (x - begin));
+        ivec3 box = ivec3(x, row % uint(count.y), row / uint(count.y));
+        bool itself = scale() == 1 && interesting_from(box, 1) != 0u;
+        word |= (itself ? 0u : free_from(box) + 1u) << (8u * (x - begin));
     }
     distance_bytes.words[index] = word;
 }

@@ -19,7 +19,10 @@ layout(set = 0, binding = 13, std430) readonly buffer Squares {
     uint squares[];
 } squares;
 #ifdef OCTANT
-// Two words a cell: a byte for each octant.
+layout(set = 0, binding = 12, std430) readonly buffer Interesting {
+    uint words[];
+} interesting;
+// Two words a cell: a byte for each octant, as in distance_pack.comp.
 layout(set = 0, binding = 14, std430) buffer DistanceBytes {
     uint words[];
 } distance_bytes;
@@ -96,6 +99,14 @@ uint advance(inout Queue queue, uint k, uint f) {
     return min(feet[queue.head] + square_of(apart, slice.weight, slice.reach), FAR_SQUARED);
 }
 
+#ifdef OCTANT
+bool is_interesting(uint cell) {
+    uint x = cell % slice.cells_x;
+    uint row = cell / slice.cells_x;
+    return (interesting.words[row * words(slice.cells_x) + x / 32u] >> (x & 31u) & 1u) != 0u;
+}
+#endif
+
 void main() {
     uint column = invocation();
     if (column >= slice.end) {
@@ -114,7 +125,8 @@ void main() {
         uint byte = slice.octant & 3u;
         // Octants 0 and 4 come first.
         uint others = byte == 0u ? 0u : distance_bytes.words[word];
-        distance_bytes.words[word] = others | free_voxels(square) << (8u * byte);
+        uint free = is_interesting(at) ? 0u : free_voxels(square) + 1u;
+        distance_bytes.words[word] = others | free << (8u * byte);
 #else
         squares_after.squares[at] = square;
 #endif

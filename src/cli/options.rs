@@ -125,6 +125,10 @@ pub struct MethodOptions {
     /// nn-cone: half-angle around the view direction [default: 10]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     cone: Option<f64>,
+    /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
+    /// [default: 1]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    lookups: Option<u32>,
     /// nn-*: who builds the distances [default: auto]
     #[arg(long, value_name = "WHO")]
     build: Option<Builder>,
@@ -220,6 +224,7 @@ impl MethodOptions {
         method.block_first |= self.block_first;
         method.cell = self.cell.unwrap_or(method.cell);
         method.cone = self.cone.unwrap_or(method.cone);
+        method.lookups = self.lookups.unwrap_or(method.lookups);
         method.build = self.build.unwrap_or(method.build);
     }
 }

@@ -135,6 +135,8 @@ impl Reproduce {
             method(MethodName::NnOptimal),
             method(MethodName::NnOmni),
             method(MethodName::NnDirectional),
+            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(MethodName::NnOptimal) },
+            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(MethodName::NnOmni) },
         ];
         let effort = Effort { warmups: 0, repeats: 0, reference: main };
         let mut runner = Runner::new(Some(checked), read::scene(&settings)?, set.name.to_owned());

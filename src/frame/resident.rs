@@ -153,7 +153,7 @@ impl Resident {
     fn take(&mut self, lookup: &Lookup, host: &HostBuilt<DistanceField>) -> Result<()> {
         let value = &host.value;
         let image = distance_image(&self.device, &value.grid, value.octants, lookup.view.is_none())?;
-        upload::image(&self.device, &image, &value.distances)?;
+        upload::image(&self.device, &image, &value.bytes)?;
         self.distances.put(Built {
             lookup: *lookup,
             image,

@@ -33,7 +33,7 @@ impl Structures {
             let texels = Texels::new(&scene.field, scene.settings.volume.texture);
             let transfer = texels.transfer(&scene.transfer);
             let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
-            self.distances.push((lookup, timed(build, |d| d.distances.len() as u64)));
+            self.distances.push((lookup, timed(build, |d| d.bytes.len() as u64)));
         }
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         if self.blocks.is_none() && reads(Resource::CellRange) {

@@ -51,6 +51,9 @@ pub fn label(run: &Run) -> String {
     if run.method.starts_with("nn-") && run.settings.method.cell != 1 {
         let _ = write!(label, " (cell {})", run.settings.method.cell);
     }
+    if run.method.starts_with("nn-") && run.settings.method.lookups != 1 {
+        let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
+    }
     label
 }
 

@@ -27,11 +27,12 @@ pub fn segment(scene: &Scene) -> [Constant; 5] {
 }
 
 /// Of `near_neighbor.glsl`: how distances are looked up.
-pub fn near_neighbor(scene: &Scene) -> [Constant; 3] {
+pub fn near_neighbor(scene: &Scene) -> [Constant; 4] {
     let method = &scene.settings.method;
     [
         ("EXIT_LOOKAHEAD", u32::from(method.exit_lookahead)),
         ("CELL", method.cell),
+        ("LOOKUPS", method.lookups),
         ("OCTANTS", u32::from(method.name.distance() == Some(Distance::Directional))),
     ]
 }

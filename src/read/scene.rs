@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::RawLayout;
 use crate::error::{Error, Result};
-use crate::scene::settings::{CELLS, CONES, Settings, VolumeSettings};
+use crate::scene::settings::{CELLS, CONES, LOOKUPS, Settings, VolumeSettings};
 use crate::scene::transfer::REFERENCES;
 use crate::scene::{Camera, Field, Scene, Volume, builtin};
 
@@ -167,6 +167,12 @@ fn check_ranges(settings: &Settings) -> Result<()> {
         "method.cone (--cone)",
         method.cone.to_string(),
         format!("give a half-angle from {} to {} degrees", CONES.start(), CONES.end()),
+    )?;
+    check(
+        LOOKUPS.contains(&method.lookups),
+        "method.lookups (--lookups)",
+        method.lookups.to_string(),
+        format!("give a number from {} to {}", LOOKUPS.start(), LOOKUPS.end()),
     )?;
     let range = settings.volume.range.unwrap_or_default();
     check(

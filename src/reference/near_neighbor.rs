@@ -1,9 +1,13 @@
 //! Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next, as in `glsl/shared/near_neighbor.glsl`,
 //! and the twin of `glsl/near_neighbor.frag`.
 
-use super::section::{passes_skipped, section_depth};
+use super::section::{free_samples, section_depth};
 use super::{DEAD, Effect, Pixel, Twin};
-use crate::structure::grid::octant_of;
+use crate::structure::grid::{FAR, octant_of};
+
+/// What f32 may take from a way or add to it, relative: a product, a sum and a quotient. Less than what makes up for the
+/// quotient of a whole number.
+const WAY_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
 impl Twin<'_> {
     /// The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
@@ -11,19 +15,43 @@ impl Twin<'_> {
     /// # Panics
     /// When the frame has no distances; the plan of every `nn-*` method has them.
     pub fn next_section(&self, pixel: &mut Pixel, section: u32) -> u32 {
-        let distance = self.distance.expect("near-neighbor skipping is planned with distances");
         let (sampling, method) = (&self.scene.settings.sampling, &self.scene.settings.method);
-        let (first, end) = self.segment(pixel, section);
-        if first >= end {
+        let (mut i, end) = self.segment(pixel, section);
+        if i >= end {
             return self.passes;
         }
-        let octant = octant_of(pixel.direction);
-        let free = f64::from(self.at_cell(pixel, first, |cell| distance.at(cell, octant)));
-        let segment = f64::from(sampling.samples_per_pass) * sampling.step;
-        let way = if free > 0.0 { free + sampling.step } else { 0.0 };
-        let next = section + passes_skipped(way, segment);
-        let gone = method.exit_lookahead && next * sampling.samples_per_pass >= self.sample_count(pixel);
-        if gone { self.passes } else { next.min(self.passes) }
+        let samples = self.sample_count(pixel);
+        let gone = |i: u32| method.exit_lookahead && i >= samples;
+        let next = |i: u32| if gone(i) { self.passes } else { (i / sampling.samples_per_pass).min(self.passes) };
+        let mut looked = 0;
+        while looked < method.lookups && i < end {
+            looked += 1;
+            let ray = *pixel;
+            // Where it is the section alone that matters, f32 may be on another sample.
+            let matters = |i: u32| if looked == method.lookups { next(i) } else { i };
+            let ([free, _], [least, most]) = self.at_cell(pixel, i, |cell| {
+                let free = self.free_from(&ray, i, cell);
+                (free, free.map(|free| matters(i + free)))
+            });
+            pixel.undecided |= least != most;
+            if free == 0 {
+                break;
+            }
+            i += free;
+        }
+        next(i)
+    }
+
+    /// Samples from `i` on, which lies in `cell`, that show nothing: the least and the most that f32 may find.
+    fn free_from(&self, pixel: &Pixel, i: u32, cell: [usize; 3]) -> [u32; 2] {
+        let distance = self.distance.expect("near-neighbor skipping is planned with distances");
+        let Some(bound) = distance.free(cell, octant_of(pixel.direction)) else { return [0; 2] };
+        let [least, most] = self.steps_inside(pixel, i, cell, distance.grid.cell);
+        let step = self.scene.settings.sampling.step;
+        [(least, 1.0 - WAY_ROUNDING), (most, 1.0 + WAY_ROUNDING)].map(|(steps, rounded)| {
+            let inside = (steps * step).min(f64::from(FAR));
+            free_samples((inside + f64::from(bound)) * rounded, step)
+        })
     }
 
     /// The depth that says so.

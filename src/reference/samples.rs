@@ -59,6 +59,26 @@ impl Twin<'_> {
         found
     }
 
+    /// Steps from sample `i` until the ray leaves the box of `side`^3 cells around the volume's `cell`, in which it lies;
+    /// infinite where it leaves the volume with it. The least and the most that f32 may find.
+    pub fn steps_inside(&self, pixel: &Pixel, i: u32, cell: [usize; 3], side: usize) -> [f64; 2] {
+        let field = &self.scene.field;
+        let place = self.voxel(self.sample_position(pixel, i)) - 0.5;
+        let stride = self.voxel(pixel.direction / field.extent() * self.step_length());
+        let mut steps = [f64::INFINITY; 2];
+        for axis in 0..3 {
+            let (at, last, up) = (cell[axis] / side, (field.cells()[axis] - 1) / side, stride[axis] > 0.0);
+            if stride[axis] == 0.0 || at == if up { last } else { 0 } {
+                continue;
+            }
+            let way = ((at + usize::from(up)) * side) as f64 - place[axis];
+            for (least, by) in steps.iter_mut().zip([-FACE_ROUNDING, FACE_ROUNDING]) {
+                *least = least.min(way / stride[axis] + by / stride[axis].abs());
+            }
+        }
+        steps.map(|steps| steps.max(0.0))
+    }
+
     /// The samples of main pass `pass`: first and one past the last.
     pub fn segment(&self, pixel: &Pixel, pass: u32) -> (u32, u32) {
         let m = self.scene.settings.sampling.samples_per_pass;

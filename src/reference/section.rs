@@ -13,8 +13,8 @@ pub fn section_end(section: u32, passes: u32) -> f64 {
 /// As in the shader, whose quotients it makes up for.
 const QUOTIENT_ROUNDING: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whole segments of `segment` voxels within `way` voxels, which begin at a first sample and end where the first sample
-/// lies that may show something.
-pub fn passes_skipped(way: f64, segment: f64) -> u32 {
-    (way / segment * (1.0 + QUOTIENT_ROUNDING)).floor() as u32
+/// Samples `step` voxels apart that show nothing, from one on from which `way` voxels are free: those no farther from it,
+/// itself among them.
+pub fn free_samples(way: f64, step: f64) -> u32 {
+    (way / step * (1.0 + QUOTIENT_ROUNDING)).floor() as u32 + 1
 }

@@ -234,6 +234,9 @@ pub struct MethodSettings {
     /// `nn-cone`: the half-angle around a voxel's view direction, in degrees: one of [`CONES`].
     pub cone: f64,
     pub build: Builder,
+    /// How often an intermediate pass may look up a distance in a segment: again from where the last one ends, as long as
+    /// that is in the segment.
+    pub lookups: u32,
 }
 
 /// Who builds the distances.
@@ -255,6 +258,9 @@ pub const CELLS: [u32; 4] = [1, 2, 4, 8];
 /// Half-angles a cone may have, degrees.
 pub const CONES: std::ops::RangeInclusive<f64> = 0.01..=60.0;
 
+/// Lookups a segment may have.
+pub const LOOKUPS: std::ops::RangeInclusive<u32> = 1..=1024;
+
 impl Default for MethodSettings {
     fn default() -> Self {
         Self {
@@ -266,6 +272,7 @@ impl Default for MethodSettings {
             cell: 1,
             cone: 10.0,
             build: Builder::Auto,
+            lookups: 1,
         }
     }
 }

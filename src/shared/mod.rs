@@ -41,7 +41,7 @@ pub struct Frame {
     pub offset: f32,
     pub termination: f32,
     pub exponent: f32,
-    pub segment_voxels: f32,
+    pub step_voxels: f32,
     pub passes: u32,
 }
 
@@ -64,7 +64,7 @@ impl Frame {
             offset: sampling.offset.steps() as f32,
             termination: sampling.termination as f32,
             exponent: (sampling.step / scene.transfer.reference) as f32,
-            segment_voxels: (f64::from(sampling.samples_per_pass) * sampling.step) as f32,
+            step_voxels: sampling.step as f32,
             passes,
         }
     }

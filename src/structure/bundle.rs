@@ -28,7 +28,7 @@
 use rayon::prelude::*;
 
 use super::LookupView;
-use super::grid::{DistanceField, FAR, Grid};
+use super::grid::{DistanceField, FAR, Grid, byte_of};
 use super::wide::Wide;
 use crate::scene::Field;
 
@@ -109,21 +109,21 @@ pub fn along(omni: &DistanceField, interesting: &[bool], bundles: &Bundles) -> D
     for scale in SCALES {
         let boxes = omni.grid.cells.map(|n| n.div_ceil(scale));
         let search = Search { bundles, omni, one: &one, two: &two, four: &four, scale, boxes, larger: found.as_ref() };
-        let mut distances = vec![0; boxes.iter().product()];
-        distances.par_chunks_mut(boxes[0]).enumerate().for_each(|(row, line)| {
-            for (x, distance) in line.iter_mut().enumerate() {
-                *distance = search.distance([x, row % boxes[1], row / boxes[1]]);
+        let mut bytes = vec![0; boxes.iter().product()];
+        bytes.par_chunks_mut(boxes[0]).enumerate().for_each(|(row, line)| {
+            for (x, byte) in line.iter_mut().enumerate() {
+                *byte = search.byte([x, row % boxes[1], row / boxes[1]]);
             }
         });
-        found = Some(Level { boxes, distances });
+        found = Some(Level { boxes, bytes });
     }
-    DistanceField { grid: omni.grid, octants: 1, distances: found.map(|level| level.distances).unwrap_or_default() }
+    DistanceField { grid: omni.grid, octants: 1, bytes: found.map(|level| level.bytes).unwrap_or_default() }
 }
 
-/// What was found for boxes of one size.
+/// What was found for boxes of one size. Those of several cells are not said to be interesting.
 struct Level {
     boxes: [usize; 3],
-    distances: Vec<u8>,
+    bytes: Vec<u8>,
 }
 
 struct Search<'a> {
@@ -154,14 +154,19 @@ struct Rays {
 }
 
 impl Search<'_> {
-    fn distance(&self, at: [usize; 3]) -> u8 {
+    fn byte(&self, at: [usize; 3]) -> u8 {
+        if self.scale == 1 && self.one.at(at) { byte_of(true, 0) } else { byte_of(false, self.free(at)) }
+    }
+
+    /// Voxels that are free along every ray of the box.
+    fn free(&self, at: [usize; 3]) -> u8 {
         let Bundles { eye, low, high, spread, step, .. } = *self.bundles;
-        let (grid, scale) = (&self.omni.grid, self.scale);
+        let scale = self.scale;
         let known = self.larger.map_or(0, |level| {
             let [x, y, z] = at.map(|i| i / 2);
-            level.distances[(z * level.boxes[1] + y) * level.boxes[0] + x]
+            level.bytes[(z * level.boxes[1] + y) * level.boxes[0] + x].saturating_sub(1)
         });
-        let least = if scale == 1 { known.max(self.omni.distances[grid.index(at)]) } else { known };
+        let least = if scale == 1 { known.max(self.omni_at(at)) } else { known };
         if known >= ENOUGH {
             return least;
         }
@@ -198,7 +203,7 @@ impl Search<'_> {
                 break;
             }
             let cell: [usize; 3] = std::array::from_fn(|a| self.cell_of(here[a], a));
-            let room = f32::from(self.omni.distances[grid.index(cell)]) - (radius + widening * free) - MARGIN;
+            let room = f32::from(self.omni_at(cell)) - (radius + widening * free) - MARGIN;
             if room > short {
                 free += room / (1.0 + widening);
                 continue;
@@ -221,6 +226,11 @@ impl Search<'_> {
         }
         let whole = (nearest - MARGIN).floor().clamp(0.0, f32::from(FAR)) as u8;
         whole.max(least)
+    }
+
+    /// Free in any direction.
+    fn omni_at(&self, cell: [usize; 3]) -> u8 {
+        self.omni.bytes[self.omni.grid.index(cell)].saturating_sub(1)
     }
 
     /// How far the rays of cell `at` go before they meet the first of the interesting cells of a window.

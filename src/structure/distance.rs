@@ -17,7 +17,7 @@
 
 use rayon::prelude::*;
 
-use super::grid::{DistanceField, FAR, Grid};
+use super::grid::{DistanceField, FAR, Grid, byte_of};
 use super::square::{FAR_SQUARED, free_voxels, reach, square_of, weight};
 
 /// Columns that are transformed together: a cache line of f32, so that each line is fetched once.
@@ -32,9 +32,9 @@ pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
     let [nx, ny, nz] = grid.cells;
     let weights: [u32; 3] = std::array::from_fn(|axis| weight(grid.sides[axis]));
     assert_eq!(interesting.len(), nx * ny * nz, "one flag a cell");
-    let mut distances = vec![FAR; interesting.len()];
+    let mut bytes = vec![byte_of(false, FAR); interesting.len()];
     if !interesting.contains(&true) {
-        return DistanceField { grid: *grid, octants: 1, distances };
+        return DistanceField { grid: *grid, octants: 1, bytes };
     }
 
     // Along x and y, slab by slab: squared distances within the slab.
@@ -70,12 +70,14 @@ pub fn omni(grid: &Grid, interesting: &[bool]) -> DistanceField {
             }
         }
     });
-    distances.par_chunks_mut(nx * ny).enumerate().for_each(|(z, slab)| {
-        for (y, row) in slab.chunks_exact_mut(nx).enumerate() {
-            row.copy_from_slice(&turned[(y * nz + z) * nx..][..nx]);
+    let slabs = bytes.par_chunks_mut(nx * ny).zip(interesting.par_chunks(nx * ny));
+    slabs.enumerate().for_each(|(z, (slab, flags))| {
+        for (y, (row, flags)) in slab.chunks_exact_mut(nx).zip(flags.chunks_exact(nx)).enumerate() {
+            let free = &turned[(y * nz + z) * nx..][..nx];
+            row.iter_mut().zip(flags).zip(free).for_each(|((byte, flag), free)| *byte = byte_of(*flag, *free));
         }
     });
-    DistanceField { grid: *grid, octants: 1, distances }
+    DistanceField { grid: *grid, octants: 1, bytes }
 }
 
 /// Squared box distance to the nearest flag of a row.

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::scene::Field;
 
-/// A distance of at least so many voxels, or nothing interesting at all.
-pub const FAR: u8 = u8::MAX;
+/// The largest distance kept: at least so many voxels, or nothing interesting at all.
+pub const FAR: u8 = u8::MAX - 1;
 
 /// What a distance is less than the true one before it is floored, in voxels: room for the rounding of whoever jumps
 /// by it, so that a sample exactly at the distance is not on the wrong side of a face.
@@ -53,22 +53,28 @@ impl Grid {
     }
 }
 
+/// The byte kept of a cell: 0 where it is interesting, else one more than the whole voxels that are free from it on; so
+/// the neighbours of interesting cells have 1, as in distances from voxel to voxel.
+pub fn byte_of(interesting: bool, free: u8) -> u8 {
+    if interesting { 0 } else { free.min(FAR) + 1 }
+}
+
 /// Whole voxels (of the finest spacing) that a ray may go from anywhere in a cell and not enter an interesting one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
     pub grid: Grid,
     /// 1 for rays in any direction (of those the field was made for), or [`OCTANTS`].
     pub octants: usize,
-    /// One byte a cell and octant, octants side by side, x fastest; 0 for interesting cells and those that touch one,
-    /// [`FAR`] for that much or more.
-    pub distances: Vec<u8>,
+    /// One [`byte_of`] a cell and octant, octants side by side, x fastest.
+    pub bytes: Vec<u8>,
 }
 
 impl DistanceField {
-    /// At a cell of the volume, for a ray that points into `octant`.
-    pub fn at(&self, cell: [usize; 3], octant: usize) -> u8 {
+    /// From a cell of the volume on, for a ray that points into `octant`, up to [`FAR`]; none where the cell itself is
+    /// interesting.
+    pub fn free(&self, cell: [usize; 3], octant: usize) -> Option<u8> {
         let octant = if self.octants == 1 { 0 } else { octant };
-        self.distances[self.grid.index(cell.map(|c| c / self.grid.cell)) * self.octants + octant]
+        self.bytes[self.grid.index(cell.map(|c| c / self.grid.cell)) * self.octants + octant].checked_sub(1)
     }
 }
 

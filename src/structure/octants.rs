@@ -11,7 +11,7 @@
 
 use rayon::prelude::*;
 
-use super::grid::{DistanceField, FAR, Grid, OCTANTS};
+use super::grid::{DistanceField, FAR, Grid, OCTANTS, byte_of};
 use super::square::{FAR_SQUARED, free_voxels, reach, square_of, weight};
 
 /// Columns that are scanned together: a cache line of squares.
@@ -24,10 +24,10 @@ const TILE: usize = 16;
 pub fn directional(grid: &Grid, interesting: &[bool]) -> DistanceField {
     let [nx, ny, nz] = grid.cells;
     assert_eq!(interesting.len(), grid.count(), "one flag a cell");
-    let mut distances = vec![FAR; OCTANTS * interesting.len()];
-    let field = |distances| DistanceField { grid: *grid, octants: OCTANTS, distances };
+    let mut bytes = vec![byte_of(false, FAR); OCTANTS * interesting.len()];
+    let field = |bytes| DistanceField { grid: *grid, octants: OCTANTS, bytes };
     if !interesting.contains(&true) {
-        return field(distances);
+        return field(bytes);
     }
     for x in 0..2 {
         // Both ways along y, slab by slab.
@@ -72,18 +72,20 @@ pub fn directional(grid: &Grid, interesting: &[bool]) -> DistanceField {
                     }
                 }
             });
-            distances.par_chunks_mut(OCTANTS * nx * ny).enumerate().for_each(|(z, slab)| {
-                for (row, line) in slab.chunks_exact_mut(OCTANTS * nx).enumerate() {
+            let slabs = bytes.par_chunks_mut(OCTANTS * nx * ny).zip(interesting.par_chunks(nx * ny));
+            slabs.enumerate().for_each(|(z, (slab, flags))| {
+                for (row, (line, flags)) in slab.chunks_exact_mut(OCTANTS * nx).zip(flags.chunks_exact(nx)).enumerate()
+                {
                     let turned = &turned[(row * nz + z) * nx..][..nx];
-                    for (cell, [up, down]) in line.chunks_exact_mut(OCTANTS).zip(turned) {
+                    for ((cell, flag), [up, down]) in line.chunks_exact_mut(OCTANTS).zip(flags).zip(turned) {
                         let octant = x + 2 * y;
-                        (cell[octant], cell[octant + 4]) = (*up, *down);
+                        (cell[octant], cell[octant + 4]) = (byte_of(*flag, *up), byte_of(*flag, *down));
                     }
                 }
             });
         }
     }
-    field(distances)
+    field(bytes)
 }
 
 /// Squared box distance to the nearest flag of a row that lies at the same place or further up, or down.

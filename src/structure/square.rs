@@ -4,7 +4,7 @@
 //! The unit is 2^-13 of a squared voxel of the finest spacing. A side of a cell is squared and rounded down to it, which
 //! keeps sums of squares lower bounds and changes nothing where spacings are equal.
 
-use super::grid::SLACK;
+use super::grid::{FAR, SLACK};
 
 /// Units in a squared voxel.
 pub const UNIT: u32 = 1 << 13;
@@ -32,12 +32,12 @@ pub fn square_of(count: u32, weight: u32, reach: u32) -> u32 {
     if count < reach { count * count * weight } else { FAR_SQUARED }
 }
 
-/// Whole voxels within the root of a square less [`SLACK`]: the largest d of at most 255 with
+/// Whole voxels within the root of a square less [`SLACK`]: the largest d of at most 254 with
 /// d = 0 or (d + 1/512)^2 `UNIT` <= square.
 #[inline]
 pub fn free_voxels(square: u32) -> u8 {
     // A root of f64 is exact enough where squares are integers: those of d + 1/512 are 1/32 off any.
     let voxels = (f64::from(square) / f64::from(UNIT)).sqrt() - SLACK;
     // The cast saturates.
-    voxels as u8
+    (voxels as u8).min(FAR)
 }

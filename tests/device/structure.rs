@@ -84,10 +84,10 @@ fn agree(device: &Arc<Device>, scene: &Scene) {
                 host.prepare(&scene, &plan);
                 let expected = &host.distance(&lookup).expect("distances were built").value;
                 let name = format!("{}, cell {cell}, {}", method.name(), view.0);
-                assert_eq!(found.len(), expected.distances.len(), "{name}");
-                let differing = found.iter().zip(&expected.distances).filter(|(a, b)| a != b).count();
-                let first = found.iter().zip(&expected.distances).position(|(a, b)| a != b);
-                let pair = first.map(|i| (i, found[i], expected.distances[i]));
+                assert_eq!(found.len(), expected.bytes.len(), "{name}");
+                let differing = found.iter().zip(&expected.bytes).filter(|(a, b)| a != b).count();
+                let first = found.iter().zip(&expected.bytes).position(|(a, b)| a != b);
+                let pair = first.map(|i| (i, found[i], expected.bytes[i]));
                 assert_eq!(differing, 0, "{name}: of {} distances, the first: {pair:?}", found.len());
             }
         }

@@ -15,13 +15,24 @@ pub enum Row {
     Optimal,
     Omni,
     Directional,
+    /// Omni and optimal, where a ray may look up a distance for every sample of a segment; not in the thesis.
+    OmniEach,
+    OptimalEach,
     /// The lower bound; not in the thesis.
     Ideal,
 }
 
 impl Row {
-    pub const ALL: [Self; 6] =
-        [Self::Block, Self::BlockFirst, Self::Optimal, Self::Omni, Self::Directional, Self::Ideal];
+    pub const ALL: [Self; 8] = [
+        Self::Block,
+        Self::BlockFirst,
+        Self::Optimal,
+        Self::Omni,
+        Self::Directional,
+        Self::OptimalEach,
+        Self::OmniEach,
+        Self::Ideal,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -30,6 +41,8 @@ impl Row {
             Self::Optimal => "nn-optimal",
             Self::Omni => "nn-omni",
             Self::Directional => "nn-directional",
+            Self::OptimalEach => "nn-optimal (8 lookups)",
+            Self::OmniEach => "nn-omni (8 lookups)",
             Self::Ideal => "ideal",
         }
     }
@@ -187,7 +200,7 @@ impl DataSet {
 }
 
 /// What the thesis leaves open, and what that means here.
-pub const OPEN: [(&str, &str); 6] = [
+pub const OPEN: [(&str, &str); 7] = [
     (
         "transfer function",
         "\"a simple linear transfer function\": no points are given. Here `ramp` (0 below a quarter of the range, then \
@@ -200,6 +213,11 @@ pub const OPEN: [(&str, &str); 6] = [
         "definition of distance",
         "\"the radius of the largest possible sphere centered on the voxel\", from voxel to voxel, which skips visible \
          samples between voxels. Here between the boxes of cells, which never does; swept: cells of 2^3 voxels, looser still",
+    ),
+    (
+        "lookups of a distance",
+        "one by a ray in each intermediate pass. Here too; rows with 8 lookups let it look again from where the first \
+         distance ends, as long as that is in the segment",
     ),
     ("end of a ray", "noticed on arrival. Here as soon as the next section lies beyond it; swept: on arrival"),
     ("order of the block test", "KW03 tests after each main pass. Both orders are shown as rows"),

@@ -58,9 +58,12 @@ fn count(variant: &Variant, row: Row, main: bool) -> Option<u64> {
 
 fn row_of(run: &Run) -> Option<Row> {
     let block_first = run.settings.method.block_first;
+    let each = run.settings.method.lookups > 1;
     match run.method.as_str() {
         "rc-block" if block_first => Some(Row::BlockFirst),
         "rc-block" => Some(Row::Block),
+        "nn-optimal" if each => Some(Row::OptimalEach),
+        "nn-omni" if each => Some(Row::OmniEach),
         "nn-optimal" => Some(Row::Optimal),
         "nn-omni" => Some(Row::Omni),
         "nn-directional" => Some(Row::Directional),

@@ -21,7 +21,7 @@ pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
         dispatch(
             "distance_pack".to_owned(),
             "structure/distance_pack.comp",
-            &[("squares", squares)],
+            &[("interesting", Resource::Interesting), ("squares", squares)],
             &[("distance_bytes", Resource::DistanceBytes)],
             slice(grid, words_of_bytes(grid.cells)),
             4,
@@ -73,9 +73,13 @@ fn scan(grid: &Grid, name: String, variant: &str, axis: usize, through: [Resourc
     let slice =
         Slice { inner: inner as u32, outer: outer as u32, stride: stride as u32, ..along(grid, axis, columns, octant) };
     let [from, to] = through;
-    let writes = if to == Resource::DistanceBytes { "distance_bytes" } else { "squares_after" };
+    let (mut reads, mut writes) = (vec![("squares", from)], "squares_after");
+    if to == Resource::DistanceBytes {
+        reads.push(("interesting", Resource::Interesting));
+        writes = "distance_bytes";
+    }
     let shader = format!("{SHADER_SCAN}:{variant}");
-    let mut step = dispatch(name, &shader, &[("squares", from)], &[(writes, to)], slice, grid.cells[axis]);
+    let mut step = dispatch(name, &shader, &reads, &[(writes, to)], slice, grid.cells[axis]);
     if let Work::Dispatch(dispatch) = &mut step.work {
         dispatch.constants = vec![("LENGTH", grid.cells[axis] as u32), ("AXIS", axis as u32)];
     }

@@ -12,6 +12,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 a = arguments.values[i];
     uint section = uint(a.x);
-    uint skipped = passes_skipped(a.y);
-    results.values[i] = vec4(section_depth(section, false), section_depth(section, true), float(skipped), DEAD);
+    uint free = free_samples(a.y);
+    results.values[i] = vec4(section_depth(section, false), section_depth(section, true), float(free), DEAD);
 }

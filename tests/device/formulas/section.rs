@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use depthleap::reference::DEAD;
-use depthleap::reference::section::{passes_skipped, section_depth, section_end};
+use depthleap::reference::section::{free_samples, section_depth, section_end};
 use depthleap::scene::Scene;
 use depthleap::shared::Frame;
+use depthleap::structure::grid::SLACK;
 use depthleap::vulkan::Device;
 
 use super::kit::{Evaluator, ROUNDING, Setup, Worst};
@@ -16,12 +17,12 @@ pub fn all() -> Vec<Test> {
     tests![
         depth_of_a_section_is_its_twin,
         every_section_lies_between_its_bounds,
-        skipped_passes_are_those_of_the_twin,
-        skipped_passes_hold_no_sample_near_the_work,
+        free_samples_are_those_of_the_twin,
+        free_samples_lie_nearer_than_the_work,
     ]
 }
 
-/// Depth of a section that lies ahead, of one where the ray has arrived, passes skipped, depth of a dead ray.
+/// Depth of a section that lies ahead, of one where the ray has arrived, free samples, depth of a dead ray.
 type Results = [f32; 4];
 
 fn frame(passes: u32, step: f64, samples_per_pass: u32) -> Frame {
@@ -78,40 +79,35 @@ fn every_section_lies_between_its_bounds(device: &Arc<Device>) {
     }
 }
 
-/// Segments in voxels: M * step of every likely pair, and some that no f32 holds.
-fn segments() -> Vec<(f64, u32)> {
-    let steps = [1.0, 0.5, 0.25, 2.0, 0.1, 0.2, 0.3, 0.7, 0.9, 1.1, 1.0 / 3.0, 0.016 * 64.0, 0.004 * 256.0, 0.01];
-    let samples = [1, 2, 3, 4, 5, 7, 8, 10, 16, 32, 64];
-    steps.iter().flat_map(|&step| samples.map(|m| (step, m))).collect()
-}
+/// Steps in voxels: likely ones, and some that no f32 holds.
+const STEPS: [f64; 14] = [1.0, 0.5, 0.25, 2.0, 0.1, 0.2, 0.3, 0.7, 0.9, 1.1, 1.0 / 3.0, 0.016 * 64.0, 0.004 * 256.0, 0.01];
 
-/// Every distance there can be: whole voxels up to 255.
+/// Every whole distance, and the way inside a cell besides.
 fn distances() -> Vec<[f32; 4]> {
-    (0..256).map(|free| [0.0, free as f32, 0.0, 0.0]).collect()
+    (0..509).map(|free| [0.0, free as f32, 0.0, 0.0]).collect()
 }
 
-fn skipped_passes_are_those_of_the_twin(device: &Arc<Device>) {
+fn free_samples_are_those_of_the_twin(device: &Arc<Device>) {
     let middle = evaluator(device, "middle");
-    for (step, m) in segments() {
-        let found = results(&middle, frame(1, step, m), &distances());
+    for step in STEPS {
+        let found = results(&middle, frame(1, step, 8), &distances());
         for (free, found) in found.iter().enumerate() {
-            let expected = passes_skipped(free as f64, f64::from(m) * step);
-            assert_eq!(found[2], expected as f32, "{free} voxels in segments of {m} samples {step} apart");
+            assert_eq!(found[2], free_samples(free as f64, step) as f32, "{free} voxels, samples {step} apart");
         }
     }
 }
 
-/// The samples of the passes skipped lie nearer than the distance read: the last is a step before their end.
-fn skipped_passes_hold_no_sample_near_the_work(device: &Arc<Device>) {
+/// A sample is free where it is no farther than what is free, but for rounding.
+fn free_samples_lie_nearer_than_the_work(device: &Arc<Device>) {
     let middle = evaluator(device, "middle");
-    for (step, m) in segments() {
-        let found = results(&middle, frame(1, step, m), &distances());
+    for step in STEPS {
+        let found = results(&middle, frame(1, step, 8), &distances());
         for (free, found) in found.iter().enumerate() {
-            let last = (f64::from(found[2]) * f64::from(m) - 1.0) * step;
-            assert!(last < free as f64 || found[2] == 0.0, "{free} voxels, {m} samples {step} apart: {found:?}");
-            // And no whole segment that fits is left out, but for rounding.
-            let left = free as f64 - f64::from(found[2]) * f64::from(m) * step;
-            assert!(left < f64::from(m) * step * (1.0 + 1e-9), "{free} voxels, {m} samples {step} apart: {found:?}");
+            let last = (f64::from(found[2]) - 1.0) * step;
+            let (free, room) = (free as f64, SLACK / 2.0);
+            assert!(last <= free + room, "{free} voxels, samples {step} apart: {found:?}");
+            // And none that is free is left out.
+            assert!(last + step > free - room, "{free} voxels, samples {step} apart: {found:?}");
         }
     }
 }

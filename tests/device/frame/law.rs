@@ -32,9 +32,12 @@ const ALL_FORMS: usize = 2;
 type Change = fn(&mut Settings);
 
 /// Changes of the method's own settings that may change counts and never the picture, and the methods they are for.
-const TURNS: [(&str, &[MethodName], Change); 3] = [
+const TURNS: [(&str, &[MethodName], Change); 4] = [
     ("as it is", &SKIPPING, |_| {}),
     ("block first", &[MethodName::RcBlock], |s| s.method.block_first = true),
+    ("a lookup for every sample", &[MethodName::NnOmni, MethodName::NnOptimalFused], |s| {
+        s.method.lookups = s.sampling.samples_per_pass;
+    }),
     ("no exit lookahead", &[MethodName::NnOmni, MethodName::NnOmniFused], |s| s.method.exit_lookahead = false),
 ];
 
