@@ -19,6 +19,7 @@ pub mod math;
 pub mod measure;
 pub mod pass;
 pub mod plan;
+pub mod probe;
 pub mod read;
 pub mod reference;
 pub mod scene;

@@ -6,6 +6,7 @@ mod open;
 mod options;
 mod output;
 mod plan;
+mod probe;
 mod render;
 mod reproduce;
 
@@ -34,6 +35,7 @@ const EXAMPLES: &str = "Examples:
   depthleap render fuel.nrrd -o fuel.png                 one picture, its counts and times
   depthleap render builtin:shells:128 --method rc-ert -o -.png > shells.png
   depthleap reproduce --data volumes -o out              the papers' tables, theirs beside ours
+  depthleap probe -o out                                 what this driver culls before shading
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -64,6 +66,7 @@ enum Command {
     Render(Box<render::Render>),
     Bench(Box<bench::Bench>),
     Reproduce(Box<reproduce::Reproduce>),
+    Probe(Box<probe::Probe>),
     Plan(Box<plan::Plan>),
     Info(info::Info),
 }
@@ -75,6 +78,7 @@ pub fn main() -> ExitCode {
         Command::Render(command) => command.run(),
         Command::Bench(command) => command.run(),
         Command::Reproduce(command) => command.run(),
+        Command::Probe(command) => command.run(),
         Command::Plan(command) => command.run(),
         Command::Info(command) => command.run(),
     };

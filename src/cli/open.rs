@@ -1,5 +1,7 @@
 //! Opening the device a command runs on, and closing it: what validation said decides how the program ends.
 
+use std::sync::Arc;
+
 use clap::{Args, ValueEnum};
 
 use crate::error::{Error, Result};
@@ -40,18 +42,27 @@ enum EarlyEnd {
 }
 
 impl DeviceOptions {
-    /// Picks, opens and checks the device.
+    /// Picks and opens the device.
     ///
     /// # Errors
     /// When there is no loader, layer or device that will do.
-    pub fn open(&self) -> Result<Checked> {
+    pub fn open_unchecked(&self) -> Result<Arc<Device>> {
         #[cfg(feature = "runtime-shaders")]
         if let Some(folder) = &self.glsl {
             crate::glsl::set_directory(folder.clone())?;
         }
         let instance = Instance::new(self.validate)?;
         let (info, _) = pick(&instance.devices()?, self.device.as_deref())?;
-        let device = Device::new(&instance, &info, self.single_queue)?;
+        Device::new(&instance, &info, self.single_queue)
+    }
+
+    /// Picks, opens and checks the device.
+    ///
+    /// # Errors
+    /// As [`DeviceOptions::open_unchecked`].
+    pub fn open(&self) -> Result<Checked> {
+        let device = self.open_unchecked()?;
+        let info = &device.info;
         let early_end = self.early_end.map(|way| match way {
             EarlyEnd::Conditional => frame::EarlyEnd::Conditional,
             EarlyEnd::Readback => frame::EarlyEnd::ReadBack,
@@ -75,6 +86,14 @@ impl DeviceOptions {
     pub fn close(&self, checked: Checked) -> Result<()> {
         let instance = checked.device.instance().clone();
         drop(checked);
+        Self::judge(&instance)
+    }
+
+    /// What the validation layer said, once all is freed.
+    ///
+    /// # Errors
+    /// When it said anything.
+    pub fn judge(instance: &Instance) -> Result<()> {
         let messages = instance.messages();
         match messages.first() {
             None => Ok(()),

@@ -87,6 +87,7 @@ impl Pipelines {
                     compare: key.test.compare.unwrap_or(vk::CompareOp::ALWAYS),
                     bounds: key.test.bounds,
                 },
+                stencil: None,
                 blend: if key.blend { Blend::Over } else { Blend::Replace },
             },
         )?);

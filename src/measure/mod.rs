@@ -6,7 +6,8 @@
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
 //! 5. [`orbit`]: frames of a camera that goes around; [`reproduce`]: the papers' tables, theirs beside ours.
-//! 6. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
+//! 6. [`mod@probe`]: what a driver culls.
+//! 7. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
 
 pub mod comparison;
 pub mod csv;
@@ -16,6 +17,7 @@ pub mod number;
 pub mod orbit;
 pub mod picture;
 pub mod plot;
+pub mod probe;
 pub mod record;
 pub mod report;
 pub mod reproduce;

@@ -139,6 +139,11 @@ impl Device {
         &self.instance
     }
 
+    /// Whether fragment shaders may write storage buffers and images.
+    pub fn fragment_stores(&self) -> bool {
+        self.features.fragment_stores_and_atomics == vk::TRUE
+    }
+
     /// Whether images of `format` with optimal tiling can do all of `features`.
     pub fn format_supports(&self, format: vk::Format, features: vk::FormatFeatureFlags) -> bool {
         // SAFETY: the physical device belongs to the instance that is held.

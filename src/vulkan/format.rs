@@ -42,7 +42,7 @@ pub fn texel_bytes(format: vk::Format) -> Option<u64> {
     })
 }
 
-/// Depth for depth formats, colour for all others; stencil is not used.
+/// Depth for depth formats, colour for all others; stencil is copied by a command of its own.
 pub fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
     match is_depth(format) {
         true => vk::ImageAspectFlags::DEPTH,

@@ -9,7 +9,7 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::device::Device;
 use super::failure::misuse;
-use super::format::{aspect, texel_bytes};
+use super::format::{aspect, has_stencil, texel_bytes};
 use super::owned::Owned;
 use crate::error::{Error, Result};
 
@@ -84,7 +84,7 @@ impl Image {
         self.inner.handle
     }
 
-    /// The view of the whole image, of the depth aspect for depth formats.
+    /// The view of the whole image, of the depth aspect for depth formats that are sampled.
     pub fn view(&self) -> vk::ImageView {
         self.inner.view
     }
@@ -103,6 +103,15 @@ impl Drop for Inner {
             self.device.raw.destroy_image(self.handle, None);
             self.device.free(ManuallyDrop::take(&mut self.allocation));
         }
+    }
+}
+
+/// What a view shows: depth where a shader reads it, else stencil too, which a driver may look for in the view of an
+/// attachment though it should not.
+fn viewed(info: &ImageInfo) -> vk::ImageAspectFlags {
+    match has_stencil(info.format) && !info.usage.contains(vk::ImageUsageFlags::SAMPLED) {
+        true => vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL,
+        false => aspect(info.format),
     }
 }
 
@@ -125,7 +134,7 @@ unsafe fn bind(device: &Device, info: &ImageInfo, handle: vk::Image) -> Result<(
         .image(handle)
         .view_type(if info.volume { vk::ImageViewType::TYPE_3D } else { vk::ImageViewType::TYPE_2D })
         .format(info.format)
-        .subresource_range(whole(aspect(info.format)));
+        .subresource_range(whole(viewed(info)));
     // SAFETY: the memory is fresh and meets the requirements; the image is bound before its view is made.
     let view = unsafe {
         let bound = device.raw.bind_image_memory(handle, allocation.memory(), allocation.offset());

@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::device::Device;
 use super::failure::misuse;
-use super::format::{has_alpha, texel_bytes};
+use super::format::{has_alpha, has_stencil, texel_bytes};
 use super::layout::Layout;
 use super::owned::Owned;
 use super::render_pass::{RenderPass, Role};
@@ -52,6 +52,8 @@ pub struct GraphicsPipelineInfo<'a> {
     /// One attribute at location 0, tightly packed; `None`: no vertex buffer.
     pub vertex_format: Option<vk::Format>,
     pub depth: DepthState,
+    /// Fragments pass where the stencil attachment holds this value, which stays; `None`: no stencil test.
+    pub stencil: Option<u8>,
     pub blend: Blend,
 }
 
@@ -97,7 +99,14 @@ impl GraphicsPipeline {
             .line_width(1.0);
         let samples =
             vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let stencil = vk::StencilOpState::default()
+            .compare_op(vk::CompareOp::EQUAL)
+            .compare_mask(0xff)
+            .reference(info.stencil.unwrap_or_default().into());
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .stencil_test_enable(info.stencil.is_some())
+            .front(stencil)
+            .back(stencil)
             .depth_test_enable(info.depth.test)
             .depth_write_enable(info.depth.write)
             .depth_compare_op(info.depth.compare)
@@ -175,6 +184,11 @@ fn check_depth(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<()> {
     let attached = info.render_pass.info.attachments.iter().any(|one| one.role == Role::Depth);
     if (info.depth.test || info.depth.bounds) && !attached {
         let problem = format!("tests depth in {}, which has no depth attachment", info.render_pass.info.name);
+        return Err(misuse(info.name, problem));
+    }
+    let with_stencil = |one: &super::Attachment| one.role == Role::Depth && has_stencil(one.format);
+    if info.stencil.is_some() && !info.render_pass.info.attachments.iter().any(with_stencil) {
+        let problem = format!("tests stencils in {}, which has no stencil attachment", info.render_pass.info.name);
         return Err(misuse(info.name, problem));
     }
     if info.depth.bounds && !device.info.depth_bounds {

@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::device::Device;
 use super::failure::misuse;
-use super::format::is_depth;
+use super::format::{has_stencil, is_depth};
 use super::image::Image;
 use super::owned::{Kept, Owned};
 use crate::error::{Error, Result};
@@ -113,13 +113,18 @@ impl RenderPass {
             .attachments
             .iter()
             .map(|one| {
+                let stencil = if has_stencil(one.format) {
+                    (one.load, one.store)
+                } else {
+                    (vk::AttachmentLoadOp::DONT_CARE, vk::AttachmentStoreOp::DONT_CARE)
+                };
                 vk::AttachmentDescription2::default()
                     .format(one.format)
                     .samples(vk::SampleCountFlags::TYPE_1)
                     .load_op(one.load)
                     .store_op(one.store)
-                    .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
-                    .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
+                    .stencil_load_op(stencil.0)
+                    .stencil_store_op(stencil.1)
                     .initial_layout(one.before)
                     .final_layout(one.after)
             })

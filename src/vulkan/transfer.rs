@@ -158,6 +158,29 @@ impl Commands {
         }
     }
 
+    /// Stencil values, a byte each, tightly packed from byte `offset` on, to all of an image that is in layout `TRANSFER_DST_OPTIMAL`.
+    pub fn copy_buffer_to_stencil(&mut self, buffer: &Buffer, offset: u64, image: &Image) {
+        let [width, height, depth] = image.info.extent;
+        if !has_stencil(image.info.format) {
+            self.misused(&image.info.name, format!("{:?} has no stencil", image.info.format));
+            return;
+        }
+        let texels = u64::from(width) * u64::from(height) * u64::from(depth);
+        if !self.fits(buffer, offset, texels) {
+            return;
+        }
+        self.keep(&image.inner);
+        let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::STENCIL).layer_count(1);
+        let region = vk::BufferImageCopy::default()
+            .buffer_offset(offset)
+            .image_subresource(layers)
+            .image_extent(vk::Extent3D { width, height, depth });
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let (from, to) = (buffer.handle(), image.handle());
+        // SAFETY: as in `record_image_barrier`; the region is inside both.
+        unsafe { self.device.raw.cmd_copy_buffer_to_image(self.raw, from, to, layout, &[region]) };
+    }
+
     /// The image is in layout `TRANSFER_SRC_OPTIMAL`. Of a depth format the depth is copied.
     pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer, region: Region) {
         if let Some(region) = self.region(buffer, image, region) {

@@ -80,7 +80,8 @@ fn every_section_lies_between_its_bounds(device: &Arc<Device>) {
 }
 
 /// Steps in voxels: likely ones, and some that no f32 holds.
-const STEPS: [f64; 14] = [1.0, 0.5, 0.25, 2.0, 0.1, 0.2, 0.3, 0.7, 0.9, 1.1, 1.0 / 3.0, 0.016 * 64.0, 0.004 * 256.0, 0.01];
+const STEPS: [f64; 14] =
+    [1.0, 0.5, 0.25, 2.0, 0.1, 0.2, 0.3, 0.7, 0.9, 1.1, 1.0 / 3.0, 0.016 * 64.0, 0.004 * 256.0, 0.01];
 
 /// Every whole distance, and the way inside a cell besides.
 fn distances() -> Vec<[f32; 4]> {

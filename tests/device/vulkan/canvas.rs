@@ -156,6 +156,7 @@ impl Canvas {
                 render_pass: &self.pass,
                 vertex_format: Some(vk::Format::R32G32B32_SFLOAT),
                 depth,
+                stencil: None,
                 blend,
             },
         )
