@@ -47,7 +47,7 @@ impl Clock {
     fn worth(self) -> f64 {
         match self {
             Self::Timestamps => 1.0,
-            Self::ProcessCpu => 8.0,
+            Self::ProcessCpu => 5.0,
             Self::Wall => 8.0,
         }
     }
@@ -58,6 +58,8 @@ const MOST_WORK: u32 = 1 << 16;
 
 /// How often each draw is timed at first, and again while the times do not tell.
 const ROUNDS: usize = 3;
+/// Where the same was asked in another format, or of the whole picture.
+const FEW_ROUNDS: usize = 2;
 const MORE_ROUNDS: usize = 4;
 
 /// A pattern and what it cost.
@@ -219,7 +221,7 @@ pub fn cost(rig: &mut Rig, case: &Case, how: &How) -> Result<Cost> {
             if rounds == 0 {
                 timed.ms(rig, how.clock)?;
             }
-            for _ in 0..ROUNDS {
+            for _ in 0..if how.mixed { ROUNDS } else { FEW_ROUNDS } {
                 let ms = timed.ms(rig, how.clock)?;
                 let list = if pattern == Pattern::None { &mut measured.none_ms } else { &mut measured.all_ms };
                 list.push(ms);
@@ -253,7 +255,7 @@ fn mixed(rig: &mut Rig, case: &Case, pattern: Pattern, how: &How, ends: &Cost) -
     let counted = invocations(rig, case, &input)?;
     let timed = Timed::new(rig, case, &input)?;
     let mut ms = Vec::new();
-    for _ in 0..ROUNDS {
+    for _ in 0..FEW_ROUNDS {
         ms.push(timed.ms(rig, how.clock)?);
     }
     let mask = pattern.mask(rig.side);

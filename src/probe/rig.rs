@@ -1,11 +1,11 @@
 //! What a case is drawn with on a device: a square picture with its depths, and what is left in it.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-use super::case::{Case, History};
+use super::case::{Case, History, Mechanism};
 use super::depth::Precision;
 use super::rule::Setup;
 use crate::error::Result;
@@ -81,9 +81,11 @@ pub struct Rig {
     pub(super) statistics: Option<QueryPool>,
     pub(super) timestamps: Option<QueryPool>,
     vertex: Shader,
-    pipelines: HashMap<Case, Arc<GraphicsPipeline>>,
-    fill: Option<Arc<GraphicsPipeline>>,
+    pipelines: Arc<Mutex<Pipelines>>,
 }
+
+/// By case; none for the draw that fills.
+type Pipelines = HashMap<Option<Case>, Arc<GraphicsPipeline>>;
 
 /// Where in the upload buffer things stand, in bytes of a pixel: depth, stored, written (4 each), stencil.
 const PARTS: u64 = 13;
@@ -154,9 +156,16 @@ impl Rig {
             statistics: has_statistics.then(|| query(Kind::Statistics, 1)).transpose()?,
             timestamps: has_time.then(|| query(Kind::Timestamp, 2)).transpose()?,
             vertex: Shader::new("probe/probe.vert", &glsl::module("probe/probe.vert")?)?,
-            pipelines: HashMap::new(),
-            fill: None,
+            pipelines: Arc::default(),
         })
+    }
+
+    /// Another picture of the same format, which shares the pipelines: drivers take long for one.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn beside(&self, side: u32) -> Result<Self> {
+        Ok(Self { pipelines: self.pipelines.clone(), ..Self::new(&self.device, self.format, side)? })
     }
 
     pub fn device(&self) -> &Arc<Device> {
@@ -217,8 +226,8 @@ impl Rig {
 
     /// Writes a draw, from the stored depths to what is left, and what is asked about it.
     pub(super) fn record(&mut self, commands: &mut Commands, case: &Case, input: &Input, ask: Ask) -> Result<()> {
-        let pipeline = self.pipeline(case)?;
-        let fill = if input.history == History::Draw { Some(self.fill_pipeline()?) } else { None };
+        let pipeline = self.pipeline(Some(case))?;
+        let fill = if input.history == History::Draw { Some(self.pipeline(None)?) } else { None };
         self.restore(commands, input);
         let pool = match ask {
             Ask::Samples => Some(&self.occlusion),
@@ -314,29 +323,31 @@ impl Rig {
         DescriptorSet::new(&self.device, &pipeline.name, &pipeline.layout, &resources)
     }
 
-    fn pipeline(&mut self, case: &Case) -> Result<Arc<GraphicsPipeline>> {
-        if let Some(known) = self.pipelines.get(case) {
+    /// Of a case, or of the draw that fills.
+    fn pipeline(&self, case: Option<&Case>) -> Result<Arc<GraphicsPipeline>> {
+        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = pipelines.get(&case.copied()) {
             return Ok(known.clone());
         }
-        let mechanism = case.mechanism;
-        let stencil = (mechanism == super::Mechanism::Stencil).then_some(1);
-        let depth = DepthState {
-            test: mechanism != super::Mechanism::BoundsAlone,
-            write: mechanism.writes_depth(),
-            compare: if mechanism.compares() { case.compare.op() } else { vk::CompareOp::ALWAYS },
-            bounds: mechanism.bounds(),
+        let made = match case {
+            Some(case) => {
+                let mechanism = case.mechanism;
+                let stencil = (mechanism == Mechanism::Stencil).then_some(1);
+                let depth = DepthState {
+                    test: mechanism != Mechanism::BoundsAlone,
+                    write: mechanism.writes_depth(),
+                    compare: if mechanism.compares() { case.compare.op() } else { vk::CompareOp::ALWAYS },
+                    bounds: mechanism.bounds(),
+                };
+                self.make(&case.name(), &case.module(), depth, stencil)?
+            }
+            None => {
+                let depth = DepthState { test: true, write: true, ..DepthState::OFF };
+                self.make("probe fill", "probe/fill.frag", depth, None)?
+            }
         };
-        let made = self.make(&case.name(), &case.module(), depth, stencil)?;
-        self.pipelines.insert(*case, made.clone());
+        pipelines.insert(case.copied(), made.clone());
         Ok(made)
-    }
-
-    fn fill_pipeline(&mut self) -> Result<Arc<GraphicsPipeline>> {
-        if self.fill.is_none() {
-            let depth = DepthState { test: true, write: true, compare: vk::CompareOp::ALWAYS, bounds: false };
-            self.fill = Some(self.make("fill", "probe/fill.frag", depth, None)?);
-        }
-        self.fill.clone().ok_or_else(|| crate::Error::device("probe", "no pipeline that fills", "report this"))
     }
 
     fn make(&self, name: &str, module: &str, depth: DepthState, stencil: Option<u8>) -> Result<Arc<GraphicsPipeline>> {

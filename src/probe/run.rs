@@ -59,10 +59,10 @@ pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Fo
     })?;
     let stencil = possible.iter().copied().find(|format| has_stencil(*format));
     for format in possible.iter().copied().filter(|f| !quick || *f == first || Some(*f) == stencil) {
-        let rig = |side| Rig::new(device, format, side);
-        benches.push(Bench { format, checked: rig(CHECKED)?, timed: rig(TIMED)? });
+        let timed = Rig::new(device, format, TIMED)?;
+        benches.push(Bench { format, checked: timed.beside(CHECKED)?, timed });
     }
-    let mut rates = Rig::new(device, first, rate_side)?;
+    let mut rates = benches[0].timed.beside(rate_side)?;
     say("work");
     let doubt = statistics(&mut benches[0].timed)?;
     let how = How { clock, work: work(&mut benches[0].timed, clock)?, believed: doubt.is_none(), mixed: true };

@@ -91,26 +91,46 @@ pub(super) fn rate(per_second: f64) -> String {
     }
 }
 
-/// The first fault of each kind, ready to be pasted into a report of a bug, and how many other shaders have it too.
+/// The first fault of each kind, ready to be pasted into a report of a bug, and where else it is; all of them are in the
+/// JSON.
 pub(super) fn fault_lines(probe: &Probe) -> Vec<String> {
-    let mut kinds: Vec<(Mechanism, &Fault, String, usize)> = Vec::new();
-    for line in &probe.lines {
-        for fault in line.faults() {
-            let alike = |(mechanism, first, ..): &&mut (Mechanism, &Fault, String, usize)| {
-                let key = |f: &Fault| (f.what.clone(), f.format.clone(), f.history);
-                *mechanism == line.case.mechanism && key(first) == key(fault)
-            };
-            match kinds.iter_mut().find(alike) {
-                Some((.., others)) => *others += 1,
-                None => kinds.push((line.case.mechanism, fault, fault.line(&line.case), 0)),
-            }
+    let all: Vec<(&Line, &Fault)> =
+        probe.lines.iter().flat_map(|line| line.faults().map(move |fault| (line, fault))).collect();
+    let kind = |(line, fault): &(&Line, &Fault)| (line.case.mechanism, fault.what.clone());
+    let mut kinds: Vec<_> = all.iter().map(kind).collect();
+    kinds.dedup();
+    let mut lines = Vec::new();
+    for (i, found) in kinds.iter().enumerate() {
+        if kinds[..i].contains(found) {
+            continue;
         }
+        let these: Vec<_> = all.iter().filter(|one| kind(one) == *found).collect();
+        let Some((first, fault)) = these.first() else { continue };
+        let list = |words: &dyn Fn(&(&Line, &Fault)) -> String| {
+            let mut list: Vec<String> = Vec::new();
+            for one in &these {
+                let word = words(one);
+                if !list.contains(&word) {
+                    list.push(word);
+                }
+            }
+            list
+        };
+        let shaders = list(&|(line, _)| line.case.shader_words()).len();
+        let (formats, histories) =
+            (list(&|(_, fault)| fault.format.clone()), list(&|(_, fault)| fault.history.words().to_owned()));
+        let mut line = fault.line(&first.case);
+        if these.len() > 1 {
+            line += &format!(
+                " ({} in all: {shaders} shaders, {}, {})",
+                these.len(),
+                formats.join(", "),
+                histories.join(", ")
+            );
+        }
+        lines.push(line);
     }
-    let words = |(.., line, others): (Mechanism, &Fault, String, usize)| match others {
-        0 => line,
-        others => format!("{line} (and with {others} other shaders)"),
-    };
-    kinds.into_iter().map(words).collect()
+    lines
 }
 
 /// What it comes to, in sentences made from the measurements.
