@@ -1,5 +1,6 @@
-//! Which forms of culling are right on this very device: a small frame is run in each, and counts and picture are
-//! held against the rule. Drivers get the depth bounds test wrong; a wrong one is named and never trusted.
+//! Which forms of culling are right on this very device. First what the form is made of is held against the probe's rule,
+//! fragment by fragment ([`crate::probe`]); then a small frame is run in it, and counts and picture are held against the
+//! f64 twins. Drivers get the depth bounds test wrong; a wrong one is named and never trusted.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,11 +12,14 @@ use super::structures::Structures;
 use crate::error::Result;
 use crate::pass::cull::Form;
 use crate::plan;
+use crate::probe::correct::{Depth, faults};
+use crate::probe::run::missing;
+use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
 use crate::scene::{Camera, Scene, TransferFunction};
-use crate::vulkan::Device;
+use crate::vulkan::{Device, vk};
 
 /// What was found for one form.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,6 +67,24 @@ fn forms() -> Vec<Form> {
     Form::all(MethodName::NnOmni)
 }
 
+/// Pixels of a side of the picture that is probed.
+const PROBED: u32 = 64;
+
+/// What the passes of a form ask of the device: of those that test only, and of those that mark.
+fn cases(form: Form) -> Vec<Case> {
+    let case = |mechanism, shader| Case { mechanism, shader, compare: Compare::GreaterOrEqual };
+    let tested = match form.cull {
+        Cull::Bounds | Cull::Auto => case(Mechanism::BoundsRead, Shader::Early),
+        Cull::Ztest => case(Mechanism::DepthRead, Shader::Early),
+        Cull::Discard => case(Mechanism::Alive, Shader::Plain),
+    };
+    match form.mark {
+        Mark::Fragdepth | Mark::Auto => vec![tested, case(Mechanism::BoundsCompare, Shader::DepthLess)],
+        Mark::FragdepthAny => vec![tested, case(Mechanism::BoundsCompare, Shader::DepthAny)],
+        Mark::Copy => vec![tested],
+    }
+}
+
 /// Runs the check: a few views of a small built-in volume, every form.
 ///
 /// # Errors
@@ -72,7 +94,23 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
     let mut found: BTreeMap<Form, Verdict> = BTreeMap::new();
     // The scenes differ in their view only.
     let mut resident = Resident::new(device);
-    let mut statistics = (!device.info.pipeline_statistics).then(|| "the device has none".to_owned());
+    let mut rig = Rig::new(device, vk::Format::D32_SFLOAT, PROBED)?;
+    let statistics = measure::statistics(&mut rig)?;
+    for form in forms() {
+        let cases = cases(form);
+        let verdict = match cases.iter().find_map(|case| missing(device, case)) {
+            Some(what) => Verdict::Missing(what),
+            None => {
+                let mut wrong = None;
+                for case in &cases {
+                    let first = faults(&mut rig, case, Depth::Quick)?.into_iter().next();
+                    wrong = wrong.or(first.map(|fault| fault.line(case)));
+                }
+                wrong.map_or(Verdict::Right, Verdict::Wrong)
+            }
+        };
+        found.insert(form, verdict);
+    }
     for scene in &scenes {
         let rule = Rule::new(scene, device.info.sub_pixel_bits)?;
         for form in forms() {
@@ -80,15 +118,9 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
             if *verdict != Verdict::Right {
                 continue;
             }
-            if form.cull == Cull::Bounds && !device.info.depth_bounds {
-                *verdict = Verdict::Missing("no depth bounds test".to_owned());
-                continue;
-            }
             let run = run_form(&mut resident, device, scene, form, &rule.structures)?;
             if let Some(difference) = rule.difference(&run) {
                 *verdict = Verdict::Wrong(difference);
-            } else if form.cull == Cull::Ztest && statistics.is_none() {
-                statistics = run.invocations.as_ref().and_then(|i| doubt(i, &run.fragments));
             }
         }
     }
@@ -112,7 +144,6 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
 struct Run {
     picture: Vec<[f32; 4]>,
     fragments: Counts,
-    invocations: Option<Counts>,
 }
 
 fn run_form(
@@ -125,8 +156,8 @@ fn run_form(
     let plan = plan::plan(scene, Some(form))?;
     resident.prepare(scene, &plan, structures)?;
     let mut frame = GpuFrame::new(device, scene, &plan, resident, None)?;
-    let run = frame.run(Measure::Counts { statistics: true })?;
-    Ok(Run { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default(), invocations: run.invocations })
+    let run = frame.run(Measure::Counts { statistics: false })?;
+    Ok(Run { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default() })
 }
 
 /// What every form has to give: the f64 twins' picture and counts.
@@ -167,16 +198,4 @@ impl Rule {
         }
         None
     }
-}
-
-/// A count of invocations is believed when early culled fragments are missing from it.
-fn doubt(invocations: &Counts, fragments: &Counts) -> Option<String> {
-    // Shaders run in groups of up to some dozen fragments; culled passes still run a good deal fewer than all.
-    let (ran, passed): (u64, u64) = (invocations.main.iter().sum(), fragments.main.iter().sum());
-    let box_fragments = fragments.intermediate.first().copied().unwrap_or(0) * fragments.main.len() as u64;
-    if ran < passed {
-        return Some(format!("{ran} invocations are counted for {passed} fragments"));
-    }
-    let midway = passed + (box_fragments.saturating_sub(passed)) / 2;
-    (ran > midway).then(|| format!("{ran} invocations are counted where early tests leave {passed} fragments"))
 }

@@ -29,6 +29,9 @@ pub(super) const ALL: Scope = Scope::new(
     vk::AccessFlags2::from_raw(vk::AccessFlags2::MEMORY_READ.as_raw() | vk::AccessFlags2::MEMORY_WRITE.as_raw()),
 );
 
+/// The same of a render pass.
+const GRAPHICS: Scope = Scope::new(vk::PipelineStageFlags2::ALL_GRAPHICS, ALL.access);
+
 /// What a draw begins with: one entry a pixel, row by row.
 #[derive(Clone, Debug)]
 pub struct Input {
@@ -388,7 +391,7 @@ fn render_pass(format: vk::Format, load: vk::AttachmentLoadOp) -> RenderPassInfo
             attachment("color", COLOR, Role::Color, vk::AttachmentLoadOp::CLEAR, DRAWN),
             attachment("depth", format, Role::Depth, load, TESTED),
         ],
-        before: Dependency { source: ALL, target: ALL },
-        after: Dependency { source: ALL, target: ALL },
+        before: Dependency { source: ALL, target: GRAPHICS },
+        after: Dependency { source: GRAPHICS, target: ALL },
     }
 }

@@ -5,6 +5,7 @@ mod data;
 mod formulas;
 mod frame;
 mod harness;
+mod probe;
 mod shader;
 mod structure;
 mod vulkan;
@@ -13,9 +14,17 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     harness::run(
-        [data::tests(), formulas::tests(), vulkan::tests(), structure::tests(), frame::tests(), cli::tests()]
-            .into_iter()
-            .flatten()
-            .collect(),
+        [
+            data::tests(),
+            formulas::tests(),
+            vulkan::tests(),
+            structure::tests(),
+            frame::tests(),
+            probe::tests(),
+            cli::tests(),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
     )
 }

@@ -2,7 +2,7 @@
 
 mod extremes;
 #[path = "../../cli/program.rs"]
-mod program;
+pub mod program;
 
 use std::sync::Arc;
 
