@@ -10,15 +10,17 @@ use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
 use super::output::{Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::frame::Verdict;
+use crate::measure::comparison::groups;
 use crate::measure::error::difference;
 use crate::measure::picture::Picture;
 use crate::measure::record::{FORMAT, Results, Run};
-use crate::measure::report::Difference;
+use crate::measure::report::{Difference, verdict};
 use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
 use crate::pass::cull::Form;
+use crate::probe::{self, Probe};
 use crate::read;
-use crate::scene::settings::{CELLS, Cull, MethodName, MethodSettings, Settings};
+use crate::scene::settings::{CELLS, Cull, EXTRA_FETCHES, MethodName, MethodSettings, Settings};
 
 /// Every method on every scene: the main job
 ///
@@ -31,6 +33,7 @@ use crate::scene::settings::{CELLS, Cull, MethodName, MethodSettings, Settings};
   depthleap bench fuel.nrrd aneurism.nrrd --tf ramp -o out
   depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out
   depthleap bench engine.nrrd --method nn-omni,nn-optimal,nn-cone --orbit 72 -o out
+  depthleap bench engine.nrrd --method rc-ert,nn-omni --gpu-cost 32 -o out
   depthleap bench engine.nrrd --method rc-block,nn-omni --cells 1,2,4,8 -o out
   depthleap render --from out/results.json#3 -o again.png")]
 pub struct Bench {
@@ -58,6 +61,10 @@ pub struct Bench {
     /// Go around each volume in N frames as well, while structures for coming views are built beside the frames
     #[arg(long, value_name = "N")]
     orbit: Option<usize>,
+    /// Run each scene again with samples that take 1, 2, 4, ... up to K extra fetches, one after another: where skipping
+    /// starts to pay
+    #[arg(long, value_name = "K")]
+    gpu_cost: Option<u32>,
     /// Leave out the f64 reference: no error and no lower bound
     #[arg(long)]
     no_reference: bool,
@@ -91,6 +98,10 @@ impl Bench {
         if let Some(cell) = self.cells.iter().find(|cell| !CELLS.contains(cell)) {
             return Err(Error::usage("--cells", format!("has {cell}"), "give some of 1, 2, 4 and 8 voxels"));
         }
+        if let Some(cost) = self.gpu_cost.filter(|cost| *cost == 0 || !EXTRA_FETCHES.contains(cost)) {
+            let most = EXTRA_FETCHES.end();
+            return Err(Error::usage("--gpu-cost", format!("is {cost}"), format!("give a number from 1 to {most}")));
+        }
         if self.orbit == Some(0) {
             return Err(Error::usage("--orbit", "is 0", "give the number of frames for one turn"));
         }
@@ -116,10 +127,24 @@ impl Bench {
                 runner.orbits(&mut here, count, &|what| progress.say(what))?;
             }
             measured.extend(here);
+            for cost in self.costs() {
+                runner.burden(cost);
+                let effort = Effort { reference: false, ..effort };
+                measured.extend(runner.measure(&methods, effort, &|what| progress.say(what))?);
+            }
         }
         drop(progress);
         opened.map_or(Ok(()), |checked| self.device.close(checked))?;
         self.write(measured)
+    }
+
+    /// Extra fetches beyond those of the scene: doubled up to the most.
+    fn costs(&self) -> Vec<u32> {
+        let Some(most) = self.gpu_cost else { return Vec::new() };
+        let mut costs: Vec<u32> = std::iter::successors(Some(1u32), |cost| cost.checked_mul(2)).collect();
+        costs.retain(|cost| *cost < most);
+        costs.push(most);
+        costs
     }
 
     /// The methods of one scene, in every form that is asked for.
@@ -145,6 +170,14 @@ impl Bench {
         variants
     }
 
+    /// What `depthleap probe` left in the same folder, of the same device and driver.
+    fn probe_of(&self, results: &Results) -> Option<Probe> {
+        let path = self.output.join("probe.json");
+        let found = probe::record::read(&std::fs::read_to_string(&path).ok()?, &path.display().to_string()).ok()?;
+        let same = |run: &Run| (run.device.as_str(), run.driver.trim()) == (&found.device.name, &found.device.driver);
+        results.runs.iter().any(same).then_some(found)
+    }
+
     fn write(&self, measured: Vec<Measured>) -> Result<()> {
         let mut runs = Vec::new();
         let broken: Vec<String> = measured.iter().filter_map(broken_law).collect();
@@ -167,13 +200,20 @@ impl Bench {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             runs,
         };
-        let input =
-            ReportInput { title: "Depthleap bench", results: &results, pictures: &pictures, differences: &differences };
+        let probe = self.probe_of(&results);
+        let input = ReportInput {
+            title: "Depthleap bench",
+            results: &results,
+            pictures: &pictures,
+            differences: &differences,
+            probe: probe.as_ref(),
+        };
         write_atomically(&self.output.join("results.json"), results.to_json()?.as_bytes())?;
         write_atomically(&self.output.join("results.csv"), csv::csv(&results)?.as_bytes())?;
         let report = self.output.join("report.html");
         write_atomically(&report, report_html(&input)?.as_bytes())?;
-        let text = format!("{}\nReport: {}\n", table::table(&results.runs), report.display());
+        let verdict = verdict(&groups(&results.runs));
+        let text = format!("{}\n{verdict}\n\nReport: {}\n", table::table(&results.runs), report.display());
         write::write_standard_output(text.as_bytes())?;
         match broken.first() {
             None => Ok(()),

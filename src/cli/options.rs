@@ -101,6 +101,9 @@ pub struct SceneOptions {
     /// T, a ray ends when its opacity is greater; 1 ends none early [default: 0.95]
     #[arg(long, value_name = "OPACITY", allow_negative_numbers = true, help_heading = "Sampling")]
     termination: Option<f64>,
+    /// Artificial cost of a sample: so many further fetches, one after another, which change no picture [default: 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Sampling")]
+    extra_fetches: Option<u32>,
 }
 
 /// Which passes, and how fragments are culled and marked.
@@ -211,6 +214,7 @@ impl SceneOptions {
         put(&mut sampling.samples_per_pass, &self.samples_per_pass);
         put(&mut sampling.passes, &self.passes);
         put(&mut sampling.termination, &self.termination);
+        put(&mut sampling.extra_fetches, &self.extra_fetches);
     }
 }
 

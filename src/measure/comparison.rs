@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::number::{milliseconds, percent, thousands};
 use super::record::Run;
+use super::saving::{self, Clock, Saved};
 use super::timing::Timing;
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
@@ -79,6 +80,9 @@ impl<'a> Group<'a> {
             "{} x {} pixels, step {}, M = {}, T = {}",
             image.size[0], image.size[1], sampling.step, sampling.samples_per_pass, sampling.termination
         );
+        if sampling.extra_fetches > 0 {
+            let _ = write!(text, ", {} extra fetches a sample", sampling.extra_fetches);
+        }
         if !run.view.is_empty() {
             text = format!("{}; {text}", run.view);
         }
@@ -121,7 +125,7 @@ const fn column(upper: &'static str, lower: &'static str, right: bool) -> Column
     Column { head: [upper, lower], right }
 }
 
-pub const COLUMNS: [Column; 12] = [
+pub const COLUMNS: [Column; 15] = [
     column("", "method", false),
     column("", "cull + mark", false),
     column("main", "passes", true),
@@ -133,6 +137,9 @@ pub const COLUMNS: [Column; 12] = [
     column("GPU", "ms", true),
     column("CPU", "ms", true),
     column("build", "ms", true),
+    column("fragments", "saved %", true),
+    column("time", "saved %", true),
+    column("culling", "efficiency", true),
     column("largest", "error", true),
 ];
 
@@ -147,7 +154,7 @@ pub struct Cell {
 /// The comparison of one group.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    pub rows: Vec<[Cell; 12]>,
+    pub rows: Vec<[Cell; 15]>,
     /// What the marks `(a)`, `(b)`, ... stand for.
     pub notes: Vec<String>,
 }
@@ -169,7 +176,7 @@ impl Grid {
             grid.rows.push(row);
         }
         for ideal in group.ideals() {
-            let mut row: [Cell; 12] = std::array::from_fn(|_| Cell::default());
+            let mut row: [Cell; 15] = std::array::from_fn(|_| Cell::default());
             row[0] = grid.noted("ideal", "lower bound: the segments that hold a contributing sample; no method".into());
             row[3] = value(thousands(ideal));
             row[4] = grid.share(ideal, baseline.map(|b| b.fragments.main));
@@ -178,7 +185,7 @@ impl Grid {
         grid
     }
 
-    fn row(&mut self, run: &Run, baseline: Option<&Run>) -> [Cell; 12] {
+    fn row(&mut self, run: &Run, baseline: Option<&Run>) -> [Cell; 15] {
         [
             value(label(run)),
             match forms(run) {
@@ -197,8 +204,25 @@ impl Grid {
             self.time(run.gpu_ms.as_ref().and_then(|t| t.total()), "no device timestamps for this run"),
             self.time(run.host.cpu.as_ref(), "CPU time was not measured"),
             self.time(run.host.build.as_ref(), "this method builds no structure"),
+            self.saved(run, |saved| Some(100.0 * saved.fragments), 1),
+            self.saved(run, |saved| Some(100.0 * saved.time?), 1),
+            self.saved(run, |saved| saved.efficiency(), 2),
             self.error(run),
         ]
+    }
+
+    fn saved(&mut self, run: &Run, of: impl Fn(&Saved) -> Option<f64>, digits: usize) -> Cell {
+        if run.method == saving::AGAINST {
+            return self.absent("the others are compared with this one");
+        }
+        let Some(saved) = &run.saved else { return self.absent("no rc-ert run of this scene on the device") };
+        match of(saved) {
+            Some(number) => {
+                let clock = saved.clock.map_or("", Clock::words);
+                self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
+            }
+            None => self.absent("not timed, or no fragment was saved"),
+        }
     }
 
     fn share(&mut self, part: u64, whole: Option<u64>) -> Cell {

@@ -5,7 +5,8 @@
 //!    `fragments_intermediate`, `invocations_main`, `invocations_intermediate`, `ideal_main`.
 //! 2. Times in milliseconds, each as `X_ms` (the median), `X_ms_min`, `X_ms_max`, `X_ms_mad`, `X_ms_n`, for X =
 //!    `gpu_total`, `frame`, `cpu`, `record`, `build`.
-//! 3. `structure_bytes`, `memory_bytes` (the sum of all resources), `error_max` (`inf` where infinite), `error_rmse`,
+//! 3. `saved_fragments`, `saved_time` (parts of what `rc-ert` takes), `culling_efficiency` (the one by the other),
+//!    `structure_bytes`, `memory_bytes` (the sum of all resources), `error_max` (`inf` where infinite), `error_rmse`,
 //!    `error_psnr` (decibel), `error_undecided`, `error_reference`, `device`, `driver`.
 //! 4. The document: `program`, `commit`, `command`, `date`, `version`.
 //! 5. Lists in one field: `fragments_main_per_pass`, `fragments_intermediate_per_pass`,
@@ -20,6 +21,7 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use super::record::{Counts, Results, Run};
+use super::saving::Saved;
 use super::timing::Timing;
 use crate::error::{Error, Result};
 
@@ -98,6 +100,10 @@ fn fixed_fields(results: &Results, run: &Run) -> Row {
 
     let mut put = |name: &str, value: String| row.push((name.to_string(), value));
     let error = run.error.as_ref();
+    let saved = run.saved.as_ref();
+    put("saved_fragments", or_empty(saved.map(|s| s.fragments)));
+    put("saved_time", or_empty(saved.and_then(|s| s.time)));
+    put("culling_efficiency", or_empty(saved.and_then(Saved::efficiency)));
     put("structure_bytes", run.bytes.to_string());
     put("memory_bytes", run.memory.values().fold(0_u64, |sum, b| sum.saturating_add(*b)).to_string());
     put("error_max", or_empty(error.map(|e| e.max)));

@@ -5,11 +5,13 @@
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
-//! 5. [`orbit`]: frames of a camera that goes around; [`reproduce`]: the papers' tables, theirs beside ours.
-//! 6. [`mod@probe`]: what a driver culls.
-//! 7. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
+//! 5. [`saving`]: what became of the fragments saved; [`cost`]: how that depends on what a sample costs.
+//! 6. [`orbit`]: frames of a camera that goes around; [`reproduce`]: the papers' tables, theirs beside ours.
+//! 7. [`mod@probe`]: what a driver culls.
+//! 8. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
 
 pub mod comparison;
+pub mod cost;
 pub mod csv;
 pub mod error;
 pub mod limits;
@@ -22,6 +24,7 @@ pub mod record;
 pub mod report;
 pub mod reproduce;
 pub mod runner;
+pub mod saving;
 pub mod statistics;
 pub mod table;
 pub mod timing;

@@ -40,6 +40,7 @@
 //! | `plan` | array of text | the frame's steps, one a line |
 //! | `notes` | array of text | what a reader of the numbers should know |
 //! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
+//! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
@@ -53,6 +54,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::orbit::OrbitFrame;
+use super::saving::Saved;
 use super::timing::{HostTimes, Timings};
 use crate::error::{Error, Result};
 use crate::scene::Settings;
@@ -94,6 +96,9 @@ pub struct Run {
     /// Frames of a camera that goes around the volume.
     #[serde(default)]
     pub orbit: Option<Vec<OrbitFrame>>,
+    /// Against `rc-ert`.
+    #[serde(default)]
+    pub saved: Option<Saved>,
     pub settings: Settings,
 }
 

@@ -9,6 +9,7 @@ use super::error::compare;
 use super::limits;
 use super::picture::Picture;
 use super::record::{Counts, FORMAT, Ideal, LeftOut, PassTimes, Run};
+use super::saving;
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
 use crate::frame::{
@@ -121,7 +122,14 @@ impl<'a> Runner<'a> {
         let mut measured: Vec<Measured> =
             entries.into_iter().map(|entry| self.finish(entry, effort)).collect::<Result<_>>()?;
         law_of_skipping(&mut measured);
+        let on_cpu = self.checked.is_some_and(|checked| checked.device.info.is_cpu());
+        saving::save(&mut measured.iter_mut().map(|one| &mut one.run).collect::<Vec<_>>(), on_cpu);
         Ok(measured)
+    }
+
+    /// From now on each sample takes so many extra fetches.
+    pub fn burden(&mut self, extra_fetches: u32) {
+        self.scene.settings.sampling.extra_fetches = extra_fetches;
     }
 
     /// Whether every one of `methods` can be run, before any is.
@@ -232,6 +240,7 @@ impl<'a> Runner<'a> {
             plan: entry.plan.lines(),
             notes: self.notes(&entry),
             orbit: None,
+            saved: None,
             settings: entry.scene.settings.clone(),
         };
         let verdict = self.checked.zip(form).and_then(|(c, form)| c.check.forms.get(&form));

@@ -3,12 +3,39 @@
 use std::fmt::Write;
 
 use super::comparison::{COLUMNS, Cell, Grid, Group, groups, label, note_mark};
+use super::cost::{Sweep, extra_fetches, least_cost};
 use super::orbit::Summary;
 use super::record::Run;
 
 /// One table a scene, with its footnotes; empty where there are no runs.
 pub fn table(runs: &[Run]) -> String {
-    groups(runs).iter().map(group_table).collect::<Vec<_>>().join("\n")
+    let groups = groups(runs);
+    let shown = groups.iter().filter(|group| extra_fetches(group) == least_cost(group, &groups));
+    let text = |group: &Group| {
+        let sweep = Sweep::of(group, &groups).map(|sweep| cost_table(&sweep)).unwrap_or_default();
+        group_table(group) + &sweep
+    };
+    shown.map(text).collect::<Vec<_>>().join("\n")
+}
+
+/// Times by the cost of a sample.
+fn cost_table(sweep: &Sweep) -> String {
+    let rows: Vec<Vec<String>> = std::iter::once(sweep.head()).chain(sweep.table()).collect();
+    let width = |c: usize| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+    let mut out = "\nTime by the cost of a sample, rc-ert = 1\n".to_owned();
+    for row in &rows {
+        let cells: Vec<String> = row
+            .iter()
+            .enumerate()
+            .map(|(c, text)| {
+                let w = width(c);
+                if c == 0 || c + 1 == row.len() { format!("{text:<w$}") } else { format!("{text:>w$}") }
+            })
+            .collect();
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "{}", cells.join("  ").trim_end());
+    }
+    out
 }
 
 fn group_table(group: &Group) -> String {

@@ -12,7 +12,7 @@ pub fn samples(scene: &Scene) -> Constant {
 }
 
 /// Of `volume.glsl`, `transfer.glsl` and `segment.glsl`: what taking samples leaves out for this scene.
-pub fn segment(scene: &Scene) -> [Constant; 5] {
+pub fn segment(scene: &Scene) -> [Constant; 6] {
     let sampling = &scene.settings.sampling;
     let pieces = scene.transfer.knots().len() as u32;
     let corrected = sampling.alpha == Alpha::Exponential
@@ -22,6 +22,7 @@ pub fn segment(scene: &Scene) -> [Constant; 5] {
         ("PIECES", pieces),
         ("SEARCH", pieces.next_power_of_two() / 2),
         ("CORRECT_OPACITY", u32::from(corrected)),
+        ("EXTRA_FETCHES", sampling.extra_fetches),
         ("LAST_PARTIAL", u32::from(sampling.last == Last::Partial)),
     ]
 }

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::RawLayout;
 use crate::error::{Error, Result};
-use crate::scene::settings::{CELLS, CONES, LOOKUPS, Settings, VolumeSettings};
+use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, LOOKUPS, Settings, VolumeSettings};
 use crate::scene::transfer::REFERENCES;
 use crate::scene::{Camera, Field, Scene, Volume, builtin};
 
@@ -154,6 +154,12 @@ fn check_ranges(settings: &Settings) -> Result<()> {
         "transfer.reference (--reference)",
         reference.to_string(),
         format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end()),
+    )?;
+    check(
+        EXTRA_FETCHES.contains(&settings.sampling.extra_fetches),
+        "sampling.extra_fetches (--extra-fetches)",
+        settings.sampling.extra_fetches.to_string(),
+        format!("give a number from {} to {}", EXTRA_FETCHES.start(), EXTRA_FETCHES.end()),
     )?;
     let method = &settings.method;
     check(

@@ -148,6 +148,8 @@ pub struct SamplingSettings {
     pub passes: u32,
     /// T: a ray ends when its opacity is greater.
     pub termination: f64,
+    /// An artificial cost: so many further fetches of the volume with each sample, one after another. It changes no picture.
+    pub extra_fetches: u32,
 }
 
 impl Default for SamplingSettings {
@@ -161,6 +163,7 @@ impl Default for SamplingSettings {
             samples_per_pass: 8,
             passes: 0,
             termination: 0.95,
+            extra_fetches: 0,
         }
     }
 }
@@ -257,6 +260,9 @@ pub const CELLS: [u32; 4] = [1, 2, 4, 8];
 
 /// Half-angles a cone may have, degrees.
 pub const CONES: std::ops::RangeInclusive<f64> = 0.01..=60.0;
+
+/// Extra fetches a sample may have.
+pub const EXTRA_FETCHES: std::ops::RangeInclusive<u32> = 0..=4096;
 
 /// Lookups a segment may have.
 pub const LOOKUPS: std::ops::RangeInclusive<u32> = 1..=1024;

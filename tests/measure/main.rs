@@ -6,3 +6,4 @@ mod pictures;
 mod records;
 mod reproduce;
 mod runs;
+mod savings;

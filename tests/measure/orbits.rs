@@ -45,7 +45,7 @@ fn orbits_are_in_the_table_the_report_and_the_file() {
     assert!(!table::table(&results.runs).contains("Orbit"));
     results.runs[1].orbit = Some(frames());
     assert!(table::table(&results.runs).contains("4 frames, 2 by omni, 2 by cone"));
-    let input = ReportInput { title: "orbit", results: &results, pictures: &[], differences: &[] };
+    let input = ReportInput { title: "orbit", results: &results, pictures: &[], differences: &[], probe: None };
     let page = report_html(&input).unwrap();
     assert!(page.contains("Fragments of each frame of an orbit") && page.contains("frames of the orbit"));
     let text = results.to_json().unwrap();

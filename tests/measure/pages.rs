@@ -94,7 +94,8 @@ mod report {
         let pictures: Vec<_> = (0..results.runs.len()).map(|i| (i, picture([8, 6]))).collect();
         let differences = [Difference { run: 1, gain: 64.0, picture: picture([8, 6]) }];
         let title = "Depth-bounds culling";
-        report_html(&ReportInput { title, results, pictures: &pictures, differences: &differences }).unwrap()
+        report_html(&ReportInput { title, results, pictures: &pictures, differences: &differences, probe: None })
+            .unwrap()
     }
 
     #[test]
@@ -172,7 +173,7 @@ mod report {
     fn names_the_run_whose_picture_is_broken() {
         let results = results();
         let pictures = [(1, Picture { size: [3, 3], pixels: Vec::new() })];
-        let input = ReportInput { title: "t", results: &results, pictures: &pictures, differences: &[] };
+        let input = ReportInput { title: "t", results: &results, pictures: &pictures, differences: &[], probe: None };
         let error = report_html(&input).unwrap_err().to_string();
         assert!(error.contains("picture of fuel, nn-omni"), "{error}");
     }

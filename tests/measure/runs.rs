@@ -57,6 +57,7 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         plan: vec![" 1 ray_setup".into(), " 2 main_pass #0".into()],
         notes: vec!["software driver".into()],
         orbit: None,
+        saved: None,
         settings: Settings::default(),
     }
 }

@@ -60,7 +60,7 @@ fn panels(series: &[Series], of: &str) -> Result<Option<String>> {
         let (upper, lower) = panels.split_vertically(area.dim_in_pixel().1 / 2);
         panel(&upper, "Main passes", series, 0, of)?;
         panel(&lower, "Intermediate passes", series, 1, of)?;
-        legend(&key, series)
+        legend(&key, &series.iter().map(|s| s.label.clone()).collect::<Vec<_>>())
     })
     .map(Some)
 }
@@ -172,13 +172,14 @@ fn pass_ticks(passes: usize) -> Vec<f64> {
     (0..passes).step_by(step).map(|p| p as f64).collect()
 }
 
-fn legend<'a>(area: &Area<'a>, series: &[Series]) -> Drawn<'a> {
+/// A line with its mark for each method.
+pub(super) fn legend<'a>(area: &Area<'a>, labels: &[String]) -> Drawn<'a> {
     area.draw(&Text::new("method", (8, 40), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
-    for (i, s) in series.iter().enumerate() {
+    for (i, label) in labels.iter().enumerate() {
         let y = 66 + LEGEND_LINE * i as i32;
         area.draw(&PathElement::new([(8, y), (36, y)], color(i).stroke_width(2)))?;
         mark(area, (22, y), i, MARK)?;
-        area.draw(&Text::new(s.label.clone(), (44, y), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
+        area.draw(&Text::new(label.clone(), (44, y), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Plots as SVG text. Colours are those of Okabe and Ito (Color Universal Design, 2008), which the common kinds of
 //! colour blindness tell apart; a plot never says by colour alone what its legend does not name.
 
+mod cost;
 mod fragments;
 mod times;
 
@@ -11,6 +12,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+pub use cost::cost_svg;
 pub use fragments::{fragments_svg, orbit_svg};
 pub use times::times_svg;
 

@@ -1,15 +1,62 @@
 //! The first paragraph: by how much the claimed method is below the baseline, said as the runs have it.
 
 use crate::measure::comparison::{BASELINE, CLAIMED, Group, label};
+use crate::measure::cost::{extra_fetches, least_cost};
 use crate::measure::number::{percent, thousands};
 use crate::measure::record::Run;
+use crate::measure::saving::AGAINST;
 
 /// One sentence or two for each scene.
 pub fn claims(groups: &[Group]) -> Vec<String> {
     if groups.is_empty() {
         return vec!["There are no runs.".to_string()];
     }
-    groups.iter().map(claim).collect()
+    groups.iter().filter(|group| extra_fetches(group) == least_cost(group, groups)).map(claim).collect()
+}
+
+/// Whether fragments saved become time saved on this device, in one sentence made from the runs: of each scene the
+/// near-neighbor run that saves most time.
+pub fn verdict(groups: &[Group]) -> String {
+    let Some(device) = groups.first().map(|group| group.first().device.clone()) else {
+        return "There are no runs.".to_owned();
+    };
+    let near = |group: &Group| -> Option<(String, f64, f64)> {
+        let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| run.method.starts_with("nn-"));
+        let saved = runs.filter_map(|run| {
+            let saved = run.saved.as_ref()?;
+            Some((label(run), saved.fragments, saved.time?))
+        });
+        saved.max_by(|a, b| a.2.total_cmp(&b.2))
+    };
+    let plain = groups.iter().filter(|group| extra_fetches(group) == least_cost(group, groups));
+    let best: Vec<(String, f64, f64)> = plain.filter_map(near).collect();
+    if best.is_empty() {
+        return format!("On {device} no run of near-neighbor skipping was timed beside one of {AGAINST}.");
+    }
+    let range = |of: &dyn Fn(&(String, f64, f64)) -> f64, digits: usize| {
+        let (least, most) =
+            best.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let (least, most) = (format!("{least:.digits$}"), format!("{most:.digits$}"));
+        if least == most { least } else { format!("{least} to {most}") }
+    };
+    let paying = best.iter().filter(|(_, fragments, time)| *fragments > 0.0 && *time > 0.0).count();
+    let answer = match (paying, best.len()) {
+        (0, _) => "fragments saved do not become time saved".to_owned(),
+        (all, scenes) if all == scenes => "fragments saved become time saved".to_owned(),
+        (some, scenes) => format!("fragments saved become time saved in {some} of {scenes} scenes"),
+    };
+    let mut methods: Vec<&str> = best.iter().map(|(method, ..)| method.as_str()).collect();
+    methods.sort_unstable();
+    methods.dedup();
+    let saving = best.iter().all(|(_, fragments, _)| *fragments > 0.0);
+    let efficiency =
+        if saving { format!(", a culling efficiency of {}", range(&|b| b.2 / b.1, 2)) } else { String::new() };
+    format!(
+        "On {device}, {answer}: {} saves {} % of the fragments of {AGAINST} and {} % of its time{efficiency}.",
+        methods.join(" or "),
+        range(&|b| 100.0 * b.1, 0),
+        range(&|b| 100.0 * b.2, 0),
+    )
 }
 
 fn claim(group: &Group) -> String {

@@ -9,11 +9,13 @@ use std::fmt::Write;
 
 use self::html::{Html, escape};
 use super::comparison::groups;
+use super::cost::{Sweep, extra_fetches, least_cost};
 use super::picture::Picture;
 use super::record::Results;
 use crate::error::Result;
+use crate::probe::Probe;
 
-pub use claim::claims;
+pub use claim::{claims, verdict};
 
 const METHOD: &str = include_str!("method.html");
 
@@ -26,6 +28,8 @@ pub struct ReportInput<'a> {
     pub pictures: &'a [(usize, Picture)],
     /// Differences to the reference, as [`difference`](super::error::difference) makes them.
     pub differences: &'a [Difference],
+    /// What a probe found of the device, where there is one.
+    pub probe: Option<&'a Probe>,
 }
 
 /// A picture of the differences of a run to its reference.
@@ -47,13 +51,21 @@ pub fn report_html(input: &ReportInput) -> Result<String> {
     let mut page = Html::page(input.title);
     let groups = groups(&results.runs);
     page.raw("<div class=\"lead\">\n");
-    for claim in claims(&groups) {
-        page.tag("p", &claim);
-    }
+    let mut sentences = claims(&groups);
+    // What is known comes first.
+    let known = results.runs.iter().any(|run| run.saved.as_ref().is_some_and(|saved| saved.time.is_some()));
+    sentences.insert(if known { 0 } else { sentences.len() }, verdict(&groups));
+    sentences.iter().for_each(|sentence| page.tag("p", sentence));
     page.raw("</div>\n");
     head(&mut page, input);
     for group in &groups {
-        scene::section(&mut page, group, input)?;
+        // Those with a higher cost of samples are curves of the first.
+        if extra_fetches(group) == least_cost(group, &groups) {
+            scene::section(&mut page, group, Sweep::of(group, &groups).as_ref(), input)?;
+        }
+    }
+    if let Some(probe) = input.probe {
+        super::probe::section(&mut page, probe);
     }
     page.raw(METHOD);
     Ok(page.closed())

@@ -4,14 +4,15 @@ use super::ReportInput;
 use super::html::{Html, escape};
 use crate::error::{Error, Result};
 use crate::measure::comparison::{Grid, Group, forms, label};
+use crate::measure::cost::Sweep;
 use crate::measure::number::bytes;
 use crate::measure::orbit::{OrbitFrame, Summary};
-use crate::measure::plot::{fragments_svg, orbit_svg, times_svg};
+use crate::measure::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
 use crate::measure::record::Run;
 
 /// # Errors
 /// When a picture or a plot cannot be made.
-pub fn section(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()> {
+pub fn section(page: &mut Html, group: &Group, sweep: Option<&Sweep>, input: &ReportInput) -> Result<()> {
     page.raw("<section>\n");
     page.tag("h2", &group.first().scene);
     page.raw(&format!("<p class=\"sub\">{}</p>\n", escape(&group.subtitle())));
@@ -33,6 +34,16 @@ pub fn section(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()
             "Time of a frame. Coloured parts are medians of their own, so their sum need not be the median of the whole, \
              which the black tick marks.",
         );
+    }
+    if let Some(sweep) = sweep {
+        page.plot(
+            &cost_svg(sweep)?,
+            &format!("Time by the cost of a sample, {}", group.first().scene),
+            "Time of a frame in times of rc-ert, where each sample takes so many extra fetches, one after another, which \
+             change no picture. Below 1 skipping pays.",
+        );
+        let head = sweep.head();
+        page.table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &sweep.table());
     }
     if let Some(svg) = orbit_svg(group)? {
         page.plot(
