@@ -105,6 +105,7 @@ fn specialization_constants_have_their_names_and_ids() {
         ("SEARCH", 3),
         ("CORRECT_OPACITY", 4),
         ("LAST_PARTIAL", 5),
+        ("EXTRA_FETCHES", 11),
     ]);
     assert_eq!(constants("main_pass.frag:plain"), main);
     let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8)]);

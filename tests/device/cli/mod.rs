@@ -34,10 +34,39 @@ pub fn tests() -> Vec<Test> {
         test("all methods write the same picture", methods_agree_as_files),
         test("cull bounds gives the picture of ztest", bounds_and_ztest_agree).needs(Need::DepthBounds),
         test("both early ends give one picture", early_ends_agree).needs(Need::Conditional),
+        test("extra fetches change no picture and are swept", extra_fetches),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     tests.extend(extremes::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
+}
+
+fn extra_fetches(_: &Arc<Device>) {
+    let place = Place::new();
+    for (name, method) in [("a", "rc-ert"), ("b", "nn-omni"), ("c", "nn-omni+fused")] {
+        for extra in [0, 5] {
+            place.done(&format!("render {SMALL} --method {method} --extra-fetches {extra} -o {name}{extra}.npy"));
+        }
+        assert_eq!(place.read(&format!("{name}0.npy")), place.read(&format!("{name}5.npy")), "{method}");
+    }
+    let said = place.done(&format!("bench {SMALL} --method rc-ert,nn-omni --gpu-cost 3 --repeats 2 -o out")).text();
+    assert!(said.contains("Time by the cost of a sample") && said.contains("of the fragments of rc-ert"), "{said}");
+    let results = place.json("out/results.json");
+    let runs = results["runs"].as_array().unwrap();
+    let extra = |run: &Value| run["settings"]["sampling"]["extra_fetches"].as_u64().unwrap();
+    assert_eq!(runs.iter().map(extra).collect::<Vec<_>>(), [0, 0, 1, 1, 2, 2, 3, 3]);
+    for pair in runs.chunks(2) {
+        assert!(pair[0]["saved"].is_null());
+        let fragments = pair[1]["saved"]["fragments"].as_f64().unwrap();
+        assert!(fragments > 0.0 && fragments == runs[1]["saved"]["fragments"].as_f64().unwrap(), "counts have no cost");
+        assert!(pair[1]["saved"]["time"].is_f64());
+    }
+    let report = String::from_utf8(place.read("out/report.html")).unwrap();
+    assert!(report.contains("Time by the cost of a sample"), "the curves are in the report");
+    for wrong in ["--gpu-cost 0", "--gpu-cost 100000"] {
+        place.refused(&format!("bench {SMALL} {wrong} -o other"), 2, &["--gpu-cost", "from 1 to 4096"]);
+    }
+    place.refused(&format!("render {SMALL} --extra-fetches 5000 -o a.png"), 2, &["extra_fetches", "0 to 4096"]);
 }
 
 fn volume_beyond_the_limit(device: &Arc<Device>) {
