@@ -8,8 +8,10 @@
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
 //!
-//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`; `error <- glsl, vulkan`;
-//! all of these `<- pass <- plan <- frame <- measure <- cli`.
+//! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
+//!
+//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
+//! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- measure <- cli`.
 
 pub mod cli;
 pub mod error;

@@ -108,10 +108,11 @@ fn specialization_constants_have_their_names_and_ids() {
         ("EXTRA_FETCHES", 11),
     ]);
     assert_eq!(constants("main_pass.frag:plain"), main);
-    let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8)]);
+    let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8), ("LOOKUPS", 9)]);
     let intermediate = [&main[..1], &skipping[..]].concat();
     assert_eq!(constants("near_neighbor.frag:fragdepth"), intermediate);
-    let fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 9)])[..]].concat();
+    let mut fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 10)])[..]].concat();
+    fused.sort_by_key(|one| one.1);
     assert_eq!(constants("fused.frag:fragdepth"), fused);
 }
 

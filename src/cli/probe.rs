@@ -19,7 +19,7 @@ use crate::probe::run::{Found, probe};
 /// Draws every mechanism that rejects fragments (depth, depth bounds and stencil test, discard) with every kind of shader
 /// that may forbid to do so early, in every depth format: whether picture, depths and counts are right, whether the shader
 /// runs for rejected fragments, in which patterns, and how many are rejected in a second. All of it is measured. Writes
-/// probe.json and report.html.
+/// probe.json and report.html (probe.html beside the results of a bench, whose report shows it when the bench is run again).
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap probe -o out
@@ -71,7 +71,9 @@ impl Probe {
         DeviceOptions::judge(&instance)?;
         write::create_folder(&self.output)?;
         write_json(&self.output.join("probe.json"), &record)?;
-        let report = self.output.join("report.html");
+        // A bench's report takes the section in when it is made again.
+        let of_a_bench = self.output.join("results.json").exists();
+        let report = self.output.join(if of_a_bench { "probe.html" } else { "report.html" });
         write_atomically(&report, page(&record).as_bytes())?;
         let mut out = text(&record);
         if let Some(other) = &other {
