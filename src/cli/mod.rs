@@ -1,5 +1,6 @@
 //! The command line: one file a command.
 
+mod accuracy;
 mod bench;
 mod info;
 mod open;
@@ -36,6 +37,7 @@ const EXAMPLES: &str = "Examples:
   depthleap render builtin:shells:128 --method rc-ert -o -.png > shells.png
   depthleap reproduce --data volumes -o out              the papers' tables, theirs beside ours
   depthleap probe -o out                                 what this driver culls before shading
+  depthleap accuracy builtin:gaussian:64 -o out          error against run time
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -67,6 +69,7 @@ enum Command {
     Bench(Box<bench::Bench>),
     Reproduce(Box<reproduce::Reproduce>),
     Probe(Box<probe::Probe>),
+    Accuracy(Box<accuracy::Accuracy>),
     Plan(Box<plan::Plan>),
     Info(info::Info),
 }
@@ -79,6 +82,7 @@ pub fn main() -> ExitCode {
         Command::Bench(command) => command.run(),
         Command::Reproduce(command) => command.run(),
         Command::Probe(command) => command.run(),
+        Command::Accuracy(command) => command.run(),
         Command::Plan(command) => command.run(),
         Command::Info(command) => command.run(),
     };

@@ -57,6 +57,29 @@ impl Format {
     }
 }
 
+/// Structural similarity (SSIM) of two pictures as 8-bit grey over a background: 1 where they are equal. None where a
+/// picture is smaller than the windows it is made of.
+///
+/// # Errors
+/// When a picture is inconsistent, or their sizes differ.
+pub fn similarity(a: &Picture, b: &Picture, background: [f64; 3]) -> Result<Option<f64>> {
+    /// Pixels of a side of the library's windows.
+    const WINDOW: u32 = 8;
+    if a.size.iter().chain(&b.size).any(|side| *side < WINDOW) {
+        return Ok(None);
+    }
+    let grey = |picture: &Picture| {
+        picture.check()?;
+        let rgb: Vec<u8> = picture.pixels.iter().flat_map(|p| over_background(*p, background)).collect();
+        let image = image::RgbImage::from_raw(picture.size[0], picture.size[1], rgb).unwrap_or_default();
+        Ok(image::DynamicImage::ImageRgb8(image).to_luma8())
+    };
+    let found = image_compare::gray_similarity_structure(&image_compare::Algorithm::MSSIMSimple, &grey(a)?, &grey(b)?);
+    let found = found
+        .map_err(|e| Error::usage("pictures", format!("cannot be compared ({e})"), "compare pictures of one size"))?;
+    Ok(Some(found.score))
+}
+
 impl Picture {
     /// # Errors
     /// When a side is 0 or `pixels` are not width * height.

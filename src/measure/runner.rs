@@ -20,7 +20,7 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings};
+use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings, Settings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -130,6 +130,17 @@ impl<'a> Runner<'a> {
     /// From now on each sample takes so many extra fetches.
     pub fn burden(&mut self, extra_fetches: u32) {
         self.scene.settings.sampling.extra_fetches = extra_fetches;
+    }
+
+    /// Changes settings that leave volume, transfer function and view as they are: of sampling, and the format colours are
+    /// summed up in.
+    pub fn vary(&mut self, change: impl FnOnce(&mut Settings)) {
+        change(&mut self.scene.settings);
+        self.references.clear();
+    }
+
+    pub fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// Whether every one of `methods` can be run, before any is.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::comparison::forms;
 use super::record::Run;
+use super::timing::Timing;
 
 /// The method whose fragments and time are saved: rays end early, nothing is skipped [KW03 §2.1].
 pub const AGAINST: &str = "rc-ert";
@@ -29,13 +30,27 @@ impl Clock {
         }
     }
 
+    /// The best there is on a device.
+    pub fn on(cpu: bool, timestamps: bool) -> Self {
+        match (cpu, timestamps) {
+            (true, _) => Self::Cpu,
+            (_, true) => Self::Gpu,
+            _ => Self::Wall,
+        }
+    }
+
+    /// Of a frame.
+    pub fn timing(self, run: &Run) -> Option<&Timing> {
+        match self {
+            Self::Cpu => run.host.cpu.as_ref(),
+            Self::Gpu => run.gpu_ms.as_ref()?.total(),
+            Self::Wall => run.host.frame.as_ref(),
+        }
+    }
+
     /// Medians of a frame, milliseconds.
     pub fn of(self, run: &Run) -> Option<f64> {
-        match self {
-            Self::Cpu => run.host.cpu.map(|t| t.value),
-            Self::Gpu => run.gpu_ms.as_ref()?.total().map(|t| t.value),
-            Self::Wall => run.host.frame.map(|t| t.value),
-        }
+        self.timing(run).map(|timing| timing.value)
     }
 }
 
@@ -69,11 +84,7 @@ pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
         if all(rule) == 0.0 {
             continue;
         }
-        let clock = match (on_cpu, rule.gpu_ms.is_some()) {
-            (true, _) => Clock::Cpu,
-            (_, true) => Clock::Gpu,
-            _ => Clock::Wall,
-        };
+        let clock = Clock::on(on_cpu, rule.gpu_ms.is_some());
         let time = clock.of(run).zip(clock.of(rule).filter(|ms| *ms > 0.0)).map(|(ours, theirs)| 1.0 - ours / theirs);
         let form = forms(rule).map_or_else(String::new, |form| format!(" ({form})"));
         run.saved = Some(Saved {

@@ -99,7 +99,7 @@ fn picked(path: &Path) -> (PathBuf, Option<usize>) {
 /// # Errors
 /// When a value lies outside its range, settings contradict each other, or a file is wrong.
 pub fn scene(settings: &Settings) -> Result<Scene> {
-    check_ranges(settings)?;
+    check(settings)?;
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
@@ -107,7 +107,11 @@ pub fn scene(settings: &Settings) -> Result<Scene> {
     Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera })
 }
 
-fn check_ranges(settings: &Settings) -> Result<()> {
+/// Whether every number of the settings lies in its range, before any file is read.
+///
+/// # Errors
+/// When one does not, by its key and its option.
+pub fn check(settings: &Settings) -> Result<()> {
     let sampling = &settings.sampling;
     let check = |good: bool, key: &str, value: String, remedy: String| {
         if good { Ok(()) } else { Err(Error::usage(key, format!("is {value}"), remedy)) }

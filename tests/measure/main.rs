@@ -1,5 +1,6 @@
 //! From counts, times and pictures to tables, JSON, CSV and the report.
 
+mod accuracies;
 mod orbits;
 mod pages;
 mod pictures;

@@ -2,6 +2,7 @@
 //! colour blindness tell apart; a plot never says by colour alone what its legend does not name.
 
 mod cost;
+pub mod curves;
 mod fragments;
 mod times;
 

@@ -1,0 +1,88 @@
+//! The order that theory gives, and why an error may fall faster, slower or not at all.
+
+use crate::scene::Scene;
+use crate::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, VolumeTexture};
+
+/// Whether nothing shows on the six faces of the volume.
+fn vanishes_at_faces(scene: &Scene) -> bool {
+    let (field, dims) = (&scene.field, scene.field.dims());
+    let visible = |x: usize, y: usize, z: usize| {
+        let value = f64::from(field.values[(z * dims[1] + y) * dims[0] + x]);
+        scene.transfer.visible(value, value)
+    };
+    let last = dims.map(|n| n - 1);
+    let face = |a: usize, b: usize, at: &dyn Fn(usize, usize) -> [usize; 3]| {
+        (0..dims[a]).all(|i| {
+            (0..dims[b]).all(|j| {
+                let [x, y, z] = at(i, j);
+                !visible(x, y, z)
+            })
+        })
+    };
+    [0, last[0]].into_iter().all(|x| face(1, 2, &|y, z| [x, y, z]))
+        && [0, last[1]].into_iter().all(|y| face(0, 2, &|x, z| [x, y, z]))
+        && [0, last[2]].into_iter().all(|z| face(0, 1, &|x, y| [x, y, z]))
+}
+
+/// The order of the sum in the step, of a smooth scene and a ray that is not ended early.
+pub fn expected_order(scene: &Scene) -> Option<f64> {
+    let sampling = &scene.settings.sampling;
+    if sampling.alpha == Alpha::Paper || scene.transfer.jumps().next().is_some() {
+        return None;
+    }
+    let vanishes = vanishes_at_faces(scene);
+    Some(match (sampling.offset, sampling.last) {
+        // Both ends weigh nothing, so that it is the trapezoid rule.
+        _ if vanishes => 2.0,
+        (Offset::Left, _) => 1.0,
+        (Offset::Midpoint, Last::Partial) => 2.0,
+        // What the last sample stands for beyond the face is an error of the first order.
+        (Offset::Midpoint, Last::Full) => 1.0,
+    })
+}
+
+/// The explanations that apply to a scene as a method renders it. `opaque`: the exact picture has opacities above T.
+pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
+    let (settings, sampling) = (&scene.settings, &scene.settings.sampling);
+    let mut remarks = Vec::new();
+    let mut say = |applies: bool, words: &str| {
+        if applies {
+            remarks.push(words.to_owned());
+        }
+    };
+    let vanishes = vanishes_at_faces(scene);
+    say(
+        sampling.alpha == Alpha::Paper,
+        "opacities are taken as they stand, so that the sum grows with the number of samples and has no limit",
+    );
+    say(
+        vanishes && sampling.offset == Offset::Left && sampling.alpha != Alpha::Paper,
+        "nothing shows at the faces, where both ends of a ray are: the left sum is the trapezoid rule there, of order 2",
+    );
+    say(
+        !vanishes && sampling.offset == Offset::Midpoint && sampling.last == Last::Full,
+        "the volume is filled up to its faces, and the last sample stands for a whole step: order 1 instead of 2",
+    );
+    say(
+        scene.transfer.jumps().next().is_some(),
+        "the transfer function jumps: where a ray crosses the jump the error is of the first order in the step, and as large as \
+         the jump where it only touches it",
+    );
+    say(
+        method != MethodName::Rc && method != MethodName::Cpu && sampling.termination < 1.0 && opaque,
+        &format!("rays end at an opacity of {}: what lies behind is missing, whatever the step", sampling.termination),
+    );
+    say(
+        sampling.filter == Filter::Hardware,
+        "the texture unit interpolates with few fractional bits on many devices, an error that does not fall with the step",
+    );
+    say(
+        settings.volume.texture == VolumeTexture::R16,
+        "values are kept in 16 bits, which changes those of wider types a little",
+    );
+    say(
+        settings.image.accumulate != Accumulate::Rgba32f,
+        "colours are summed up in fewer bits than f32, once a pass: an error that does not fall with the step",
+    );
+    remarks
+}
