@@ -161,6 +161,18 @@ impl Way {
     }
 }
 
+/// What is the same for all ways of sampling.
+struct Asked<'a> {
+    checked: &'a Checked,
+    scene: &'a Scene,
+    /// The scene's own way.
+    own: Way,
+    /// The exact integral.
+    truth: &'a Picture,
+    /// Whether it has opacities above T.
+    opaque: bool,
+}
+
 impl Accuracy {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
@@ -187,12 +199,13 @@ impl Accuracy {
         let truth = exact(&scene)?;
         let opaque = f64::from(truth.pixels.iter().map(|p| p[3]).fold(0.0, f32::max)) > settings.sampling.termination;
         let own = Way::of(&settings);
+        let asked = Asked { checked: &checked, scene: &scene, own, truth: &truth, opaque };
         let ways = if self.full { Way::all(own) } else { Way::some(own) };
         let mut curves = Vec::new();
         for (i, way) in ways.iter().enumerate() {
             let methods = if self.full || i < 2 { &self.method[..] } else { &self.method[..1] };
             progress.say(&format!("{} of {} ways of sampling", i + 1, ways.len()));
-            curves.extend(self.curves(&checked, &scene, *way, own, methods, &truth, opaque)?);
+            curves.extend(self.curves(&asked, *way, methods)?);
         }
         mark_pareto(&mut curves);
         drop(progress);
@@ -221,18 +234,9 @@ impl Accuracy {
     }
 
     /// One way of sampling by several methods, every step.
-    #[allow(clippy::too_many_arguments)]
-    fn curves(
-        &self,
-        checked: &Checked,
-        scene: &Scene,
-        way: Way,
-        own: Way,
-        methods: &[MethodName],
-        truth: &Picture,
-        opaque: bool,
-    ) -> Result<Vec<Curve>> {
-        let mut scene = scene.clone();
+    fn curves(&self, asked: &Asked, way: Way, methods: &[MethodName]) -> Result<Vec<Curve>> {
+        let Asked { checked, own, truth, opaque, .. } = *asked;
+        let mut scene = asked.scene.clone();
         way.apply(&mut scene.settings);
         let own_settings = scene.settings.clone();
         let curve = |name: &MethodName| Curve {

@@ -128,7 +128,7 @@ impl Bench {
             }
             measured.extend(here);
             for cost in self.costs() {
-                runner.burden(cost);
+                runner.vary(|settings| settings.sampling.extra_fetches = cost);
                 let effort = Effort { reference: false, ..effort };
                 measured.extend(runner.measure(&methods, effort, &|what| progress.say(what))?);
             }

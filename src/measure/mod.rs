@@ -15,6 +15,7 @@ pub mod comparison;
 pub mod cost;
 pub mod csv;
 pub mod error;
+mod frame_times;
 pub mod limits;
 pub mod number;
 pub mod orbit;

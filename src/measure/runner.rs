@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use super::comparison;
 use super::error::compare;
+use super::frame_times::{gpu_times, host_times, pass_times};
 use super::limits;
 use super::picture::Picture;
-use super::record::{Counts, FORMAT, Ideal, LeftOut, PassTimes, Run};
+use super::record::{Counts, FORMAT, Ideal, LeftOut, Run};
 use super::saving;
-use super::timing::{HostTimes, Timing, Timings};
+use super::timing::Timing;
 use crate::error::{Error, Result};
 use crate::frame::{
     self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, distances,
 };
-use crate::pass::Group;
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
@@ -125,11 +125,6 @@ impl<'a> Runner<'a> {
         let on_cpu = self.checked.is_some_and(|checked| checked.device.info.is_cpu());
         saving::save(&mut measured.iter_mut().map(|one| &mut one.run).collect::<Vec<_>>(), on_cpu);
         Ok(measured)
-    }
-
-    /// From now on each sample takes so many extra fetches.
-    pub fn burden(&mut self, extra_fetches: u32) {
-        self.scene.settings.sampling.extra_fetches = extra_fetches;
     }
 
     /// Changes settings that leave volume, transfer function and view as they are: of sampling, and the format colours are
@@ -380,40 +375,4 @@ pub fn view_in_words(scene: &Scene) -> String {
     let list = |v: &[f64; 3]| v.map(|c| format!("{}", (c * 1e4).round() / 1e4)).join(",");
     let [width, height] = scene.settings.image.size;
     format!("eye {}, target {}, fov {}, {width}x{height}", list(&camera.eye), list(&camera.target), camera.fov_y)
-}
-
-fn host_times(plain: &[FrameRun], build: Option<Timing>) -> HostTimes {
-    let of = |get: fn(&FrameRun) -> f64| Timing::of(&plain.iter().map(get).collect::<Vec<_>>());
-    HostTimes { frame: of(|r| r.frame_ms), cpu: of(|r| r.cpu_ms), record: of(|r| r.record_ms), build }
-}
-
-fn gpu_times(timed: &[FrameRun]) -> Option<Timings> {
-    let totals: Vec<f64> = timed.iter().filter_map(|r| r.gpu_total_ms).collect();
-    let total = Timing::of(&totals)?;
-    let mut timings = Timings::default();
-    for group in Group::ALL {
-        let sum = |r: &FrameRun| r.step_ms.iter().filter(|s| s.0 == group).map(|s| s.2).sum::<f64>();
-        if timed.iter().any(|r| r.step_ms.iter().any(|s| s.0 == group))
-            && let Some(timing) = Timing::of(&timed.iter().map(sum).collect::<Vec<_>>())
-        {
-            timings.push(group.name(), timing);
-        }
-    }
-    timings.push("total", total);
-    Some(timings)
-}
-
-/// The median time of each pass.
-fn pass_times(timed: &[FrameRun], passes: u32) -> Option<PassTimes> {
-    timed.iter().find(|r| r.gpu_total_ms.is_some())?;
-    let of = |group: Group| -> Vec<f64> {
-        (0..passes)
-            .map(|pass| {
-                let here = |r: &FrameRun| r.step_ms.iter().find(|s| s.0 == group && s.1 == pass).map(|s| s.2);
-                let samples: Vec<f64> = timed.iter().filter_map(here).collect();
-                Timing::of(&samples).map_or(0.0, |t| t.value)
-            })
-            .collect()
-    };
-    Some(PassTimes { main: of(Group::Main), intermediate: of(Group::Intermediate) })
 }

@@ -13,7 +13,7 @@ use crate::glsl;
 use crate::vulkan::{
     Attachment, Blend, Buffer, BufferInfo, Commands, Dependency, DepthState, DescriptorSet, Device, Framebuffer,
     GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Kind, Place, QueryPool, Region, RenderPass,
-    RenderPassInfo, Resource, Role, Sampler, Scope, Shader,
+    RenderPassInfo, Resource, Role, Sampler, Scope, Shader, has_stencil,
 };
 
 const COLOR: vk::Format = vk::Format::R32_SFLOAT;
@@ -368,10 +368,6 @@ impl Rig {
         };
         Ok(Arc::new(GraphicsPipeline::new(&self.device, &info)?))
     }
-}
-
-pub fn has_stencil(format: vk::Format) -> bool {
-    matches!(format, vk::Format::D32_SFLOAT_S8_UINT | vk::Format::D24_UNORM_S8_UINT)
 }
 
 fn render_pass(format: vk::Format, load: vk::AttachmentLoadOp) -> RenderPassInfo {

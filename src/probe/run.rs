@@ -8,9 +8,9 @@ use super::decide::Culling;
 use super::marks::{MarkCost, mark_cost};
 use super::measure::{Clock, How, cost, rejection_rate, statistics, work};
 use super::record::{Correct, Line, Other};
-use super::rig::{Rig, has_stencil};
+use super::rig::Rig;
 use crate::error::{Error, Result};
-use crate::vulkan::{Device, vk};
+use crate::vulkan::{Device, has_stencil, vk};
 
 /// Pixels of a side of the picture that is checked.
 const CHECKED: u32 = 64;

@@ -63,7 +63,7 @@ pub(super) fn is_depth(format: vk::Format) -> bool {
 }
 
 /// Whether depth and stencil share an image: barriers must then name both.
-pub(super) fn has_stencil(format: vk::Format) -> bool {
+pub fn has_stencil(format: vk::Format) -> bool {
     matches!(format, vk::Format::D16_UNORM_S8_UINT | vk::Format::D24_UNORM_S8_UINT | vk::Format::D32_SFLOAT_S8_UINT)
 }
 

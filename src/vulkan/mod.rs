@@ -36,7 +36,7 @@ pub use buffer::{Buffer, BufferInfo, Place};
 pub use commands::Commands;
 pub use descriptor::{DescriptorSet, Resource};
 pub use device::Device;
-pub use format::{aspect, texel_bytes};
+pub use format::{aspect, has_stencil, texel_bytes};
 pub use image::{Image, ImageInfo, Sampler};
 pub use info::{DeviceInfo, DeviceKind, QueueFamily};
 pub use instance::Instance;
