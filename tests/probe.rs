@@ -4,7 +4,7 @@ use depthleap::glsl;
 use depthleap::measure::probe::{compare, page, summary, text};
 use depthleap::probe::case::{Case, Conservative, FORMATS, format_name};
 use depthleap::probe::correct::differences;
-use depthleap::probe::decide::{Measured, decide, saved, tile, time_share};
+use depthleap::probe::decide::{Measured, decide, doubtful, saved, tile, time_share};
 use depthleap::probe::depth::{LEAST_NORMAL, Precision};
 use depthleap::probe::marks::MarkCost;
 use depthleap::probe::measure::{Clock, Cost, Mixed};
@@ -222,6 +222,10 @@ fn tiles_are_where_culling_sets_in() {
     assert_eq!(tile(&by_lanes.map(|(side, _)| (side, 0.1))), None);
     // A small square that seems saved between larger ones that are not is noise.
     assert_eq!(tile(&[(64, 0.9), (32, 0.2), (16, 0.9)]), Some(64));
+    // Which is measured again.
+    assert_eq!(doubtful(&[(64, 0.9), (32, 0.2), (16, 0.9)]), Some(32));
+    assert_eq!(doubtful(&[(64, 0.1), (32, 0.2), (16, 0.9), (8, 0.0)]), Some(64));
+    assert_eq!(doubtful(&by_lanes), None);
     assert_eq!(saved(10.0, 10.0, 0.0, 0.5), Some(0.0));
     assert_eq!(saved(5.0, 10.0, 0.0, 0.5), Some(1.0));
     assert_eq!(saved(7.5, 10.0, 0.0, 0.5), Some(0.5));

@@ -132,3 +132,11 @@ pub fn tile(saved: &[(u32, f64)]) -> Option<u32> {
     by_side.sort_by_key(|(side, _)| std::cmp::Reverse(*side));
     by_side.into_iter().take_while(|(_, saved)| *saved >= 0.5).last().map(|(side, _)| side)
 }
+
+/// The side of squares that seem to save less than half where smaller ones save at least that: where small squares are
+/// rejected before their shader, so are large ones, and the measurement is at fault. The largest such side.
+pub fn doubtful(saved: &[(u32, f64)]) -> Option<u32> {
+    let clear = |(_, saved): &&(u32, f64)| *saved >= 0.5;
+    let smallest = saved.iter().filter(clear).map(|(side, _)| *side).min()?;
+    saved.iter().filter(|one| !clear(one) && one.0 > smallest).map(|(side, _)| *side).max()
+}

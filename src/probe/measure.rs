@@ -6,7 +6,7 @@ use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 
 use super::case::{Case, History};
-use super::decide::{Measured, Verdict, decide, saved, tile, time_share};
+use super::decide::{Measured, Verdict, decide, doubtful, saved, tile, time_share};
 use super::pattern::Pattern;
 use super::rig::{Ask, Input, Rig};
 use super::statistics::{Known, doubt};
@@ -242,14 +242,33 @@ pub fn cost(rig: &mut Rig, case: &Case, how: &How) -> Result<Cost> {
             let mixed = mixed(rig, case, pattern, how, &cost)?;
             cost.mixed.push(mixed);
         }
-        let by_tile: Vec<(u32, f64)> = Pattern::MIXED
-            .iter()
-            .zip(&cost.mixed)
-            .filter_map(|(pattern, mixed)| pattern.tile().zip(mixed.saved))
-            .collect();
-        cost.tile = tile(&by_tile);
+        for _ in 0..MORE_ROUNDS {
+            let Some(side) = doubtful(&by_tile(&cost.mixed)) else { break };
+            let at = Pattern::MIXED.iter().position(|pattern| pattern.tile() == Some(side));
+            let at = at.expect("sides are those of the patterns");
+            let again = mixed(rig, case, Pattern::MIXED[at], how, &cost)?;
+            cost.mixed[at].add(again);
+        }
+        cost.tile = tile(&by_tile(&cost.mixed));
     }
     Ok(cost)
+}
+
+/// What squares of each side saved.
+fn by_tile(mixed: &[Mixed]) -> Vec<(u32, f64)> {
+    let sides = Pattern::MIXED.iter().map(|pattern| pattern.tile());
+    sides.zip(mixed).filter_map(|(side, mixed)| side.zip(mixed.saved)).collect()
+}
+
+impl Mixed {
+    /// The same pattern measured again: other work on the machine only ever hides what is saved.
+    fn add(&mut self, again: Self) {
+        self.ms.extend(again.ms);
+        self.saved = match (self.saved, again.saved) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+    }
 }
 
 fn mixed(rig: &mut Rig, case: &Case, pattern: Pattern, how: &How, ends: &Cost) -> Result<Mixed> {
