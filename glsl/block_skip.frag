@@ -23,6 +23,9 @@ layout(set = 0, binding = 8, std430) readonly buffer CellRange {
 // CT [KW03 §2.3]: whether anything shows between a minimum and a maximum.
 layout(set = 0, binding = 9) uniform usampler2D block_table;
 
+// A sample stands for all values up to the next one (shared/preintegrated.glsl).
+layout(constant_id = 12) const bool SPANS = false;
+
 // Depth of a ray whose next segment is empty.
 const float SKIPPED = 0.5;
 // A sample this near (in steps) beyond the face of a block is asked for by itself: f32 cannot tell its side.
@@ -34,14 +37,38 @@ bool block_visible(ivec3 block) {
     return texelFetch(block_table, range_codes(range), 0).r != 0u;
 }
 
+// Whether anything shows in the blocks from that of sample `i` to that of the next sample, or of the exit point, with
+// those beside the way, whose corners a ray may cut off.
+bool way_visible(Ray ray, uint i) {
+    ivec3 front = cell_of(place_at(ray, steps_to(i))) / BLOCK;
+    ivec3 back = cell_of(place_at(ray, min(steps_to(i + 1u), ray.steps))) / BLOCK;
+    ivec3 low = min(front, back);
+    ivec3 high = max(front, back);
+    for (int z = low.z; z <= high.z; ++z) {
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
+                if (block_visible(ivec3(x, y, z))) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
 bool segment_visible(Ray ray, uint first, uint end) {
     for (uint i = first; i < end;) {
-        Place place = sample_place(ray, i);
+        Place place = place_at(ray, steps_to(i));
         ivec3 block = cell_of(place) / BLOCK;
         if (block_visible(block)) {
             return true;
         }
-        i += uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0)) + 1u;
+        // Those that follow lie in the same block.
+        i += uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0));
+        if (SPANS && i < end && way_visible(ray, i)) {
+            return true;
+        }
+        ++i;
     }
     return false;
 }

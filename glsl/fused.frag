@@ -16,16 +16,22 @@
 #extension GL_GOOGLE_include_directive : require
 //@variant fragdepth MARK_FRAGDEPTH
 //@variant fragdepth+holes MARK_FRAGDEPTH HOLES
+//@variant fragdepth+preintegrated MARK_FRAGDEPTH PREINTEGRATED
 //@variant fragdepth-any MARK_FRAGDEPTH_ANY
 //@variant fragdepth-any+holes MARK_FRAGDEPTH_ANY HOLES
+//@variant fragdepth-any+preintegrated MARK_FRAGDEPTH_ANY PREINTEGRATED
 //@variant copy MARK_COPY
 //@variant copy+holes MARK_COPY HOLES
+//@variant copy+preintegrated MARK_COPY PREINTEGRATED
 //@variant copy+discard MARK_COPY CULL_DISCARD
 //@variant copy+discard+holes MARK_COPY CULL_DISCARD HOLES
+//@variant copy+discard+preintegrated MARK_COPY CULL_DISCARD PREINTEGRATED
 //@variant last MARK_NONE
 //@variant last+holes MARK_NONE HOLES
+//@variant last+preintegrated MARK_NONE PREINTEGRATED
 //@variant last+discard MARK_NONE CULL_DISCARD
 //@variant last+discard+holes MARK_NONE CULL_DISCARD HOLES
+//@variant last+discard+preintegrated MARK_NONE CULL_DISCARD PREINTEGRATED
 
 // RES comes first.
 #define MARK_LOCATION 1
@@ -38,8 +44,12 @@
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"
 #include "shared/volume.glsl"
-#include "shared/transfer.glsl"
 #include "shared/opacity.glsl"
+#ifdef PREINTEGRATED
+#include "shared/preintegrated.glsl"
+#else
+#include "shared/transfer.glsl"
+#endif
 #include "shared/segment.glsl"
 
 layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;

@@ -9,14 +9,20 @@
 //@variant holes HOLES
 //@variant discard CULL_DISCARD
 //@variant discard+holes CULL_DISCARD HOLES
+//@variant preintegrated PREINTEGRATED
+//@variant discard+preintegrated CULL_DISCARD PREINTEGRATED
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
 #include "shared/double_float.glsl"
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
-#include "shared/transfer.glsl"
 #include "shared/opacity.glsl"
+#ifdef PREINTEGRATED
+#include "shared/preintegrated.glsl"
+#else
+#include "shared/transfer.glsl"
+#endif
 #include "shared/segment.glsl"
 
 #ifndef CULL_DISCARD

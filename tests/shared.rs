@@ -12,7 +12,7 @@ use depthleap::pass::{Work, main_pass};
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{Bundle, Frame, Piece, Slice, Step, pieces};
+use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, Slice, Step, pieces};
 use random::Random;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -79,6 +79,10 @@ fn bundle() -> Layout {
 
 fn piece() -> Layout {
     layout!(Piece { rgba, change, begin, inverse_length, unused })
+}
+
+fn axis_piece() -> Layout {
+    layout!(AxisPiece { begin, inverse_length, first, intervals })
 }
 
 /// What differs, one line each.
@@ -225,6 +229,11 @@ fn bundle_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn piece_is_alike_in_rust_and_in_every_shader() {
     assert_alike("Piece", &piece(), "main_pass.frag:discard+holes");
+}
+
+#[test]
+fn axis_piece_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("AxisPiece", &axis_piece(), "fused.frag:copy+preintegrated");
 }
 
 #[test]

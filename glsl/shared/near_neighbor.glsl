@@ -15,6 +15,8 @@ layout(constant_id = 6) const bool EXIT_LOOKAHEAD = true;
 layout(constant_id = 7) const int CELL = 1;
 // The structure tells octants apart.
 layout(constant_id = 8) const bool OCTANTS = false;
+// A sample stands for all values up to the next one (preintegrated.glsl).
+layout(constant_id = 12) const bool SPANS = false;
 // How often a ray may look in a segment.
 layout(constant_id = 9) const uint LOOKUPS = 1;
 
@@ -33,14 +35,16 @@ uint byte_of(Ray ray, ivec3 box) {
 
 // Samples from `i` on that show nothing.
 uint free_from(Ray ray, uint i) {
-    Place place = sample_place(ray, i);
+    Place place = place_at(ray, steps_to(i));
     ivec3 box = cell_of(place) / CELL;
     uint byte = byte_of(ray, box);
     if (byte == 0u) {
         return 0u;
     }
     float inside = min(steps_inside(ray, place, box, CELL) * frame.step_voxels, FAR);
-    return free_samples(inside + float(byte - 1u));
+    uint free = free_samples(inside + float(byte - 1u));
+    // What lies between the last free sample and the next one need not be free.
+    return SPANS ? free - 1u : free;
 }
 
 // The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.

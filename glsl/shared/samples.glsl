@@ -44,9 +44,14 @@ Ray load_ray() {
     return ray;
 }
 
-// Texture coordinates of sample `i`, from the index, never from adding steps up; rounded to some 2^-24 of the volume.
-vec3 sample_position(Ray ray, uint i) {
-    return fma(vec3(float(i) + frame.offset), ray.step_vector, ray.entry);
+// Steps from the entry point to sample `i`: from the index, never from adding steps up.
+float steps_to(uint i) {
+    return float(i) + frame.offset;
+}
+
+// Texture coordinates `steps` from the entry point, rounded to some 2^-24 of the volume.
+vec3 position_at(Ray ray, float steps) {
+    return fma(vec3(steps), ray.step_vector, ray.entry);
 }
 
 // A point by the voxel below it on each axis and its distance from there, in voxels from voxel centre to voxel centre.
@@ -55,10 +60,10 @@ struct Place {
     vec3 weight;
 };
 
-// Sample `i` to some 2^-22 voxels, wherever in the volume: whole voxels are kept apart, so that the weights keep
-// their digits.
-Place sample_place(Ray ray, uint i) {
-    vec3 steps = vec3(float(i) + frame.offset);
+// The place `distance` steps from the entry point, for a sample to some 2^-22 voxels, wherever in the volume: whole voxels are
+// kept apart, so that the weights keep their digits.
+Place place_at(Ray ray, float distance) {
+    vec3 steps = vec3(distance);
     vec3 way = steps * ray.stride_high;
     vec3 way_whole = floor(way);
     vec3 rest = steps * ray.stride_middle + steps * ray.stride_rest;

@@ -1,8 +1,10 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/reference/segment.rs.
-// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl and opacity.glsl.
+// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl) and opacity.glsl.
 
+#ifndef PREINTEGRATED
 // Bring opacities from the reference length to the step.
 layout(constant_id = 4) const bool CORRECT_OPACITY = false;
+#endif
 // The last sample stands for what is left of the ray only.
 layout(constant_id = 5) const bool LAST_PARTIAL = false;
 
@@ -11,12 +13,28 @@ float extent_of_sample(Ray ray, uint i) {
     return LAST_PARTIAL && i + 1 == ray.samples ? ray.steps - float(i) : 1.0;
 }
 
+#ifdef PREINTEGRATED
+// Premultiplied colour of the ray's segment for main pass `pass`; transparent where the ray has left the volume. Sample
+// `i` stands for all values from its own to that of the next sample, or of the exit point.
+vec4 segment_color(Ray ray, uint pass) {
+    vec4 segment = vec4(0.0);
+    uint first = pass * SAMPLES_PER_PASS;
+    uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+    float front = first < end ? node_of(sample_volume(ray, steps_to(first))) : 0.0;
+    for (uint i = first; i < end; ++i) {
+        float back = node_of(sample_volume(ray, min(steps_to(i + 1u), ray.steps)));
+        segment = composite(segment, part_of(classify_between(front, back), extent_of_sample(ray, i)));
+        front = back;
+    }
+    return segment;
+}
+#else
 // Premultiplied colour of sample `i`.
 vec4 shade_sample(Ray ray, uint i) {
     if (in_hole(ray, i)) {
         return vec4(0.0);
     }
-    vec4 color = classify(sample_volume(ray, i));
+    vec4 color = classify(sample_volume(ray, steps_to(i)));
     float steps = extent_of_sample(ray, i);
     color.a = CORRECT_OPACITY ? corrected_opacity(color.a, frame.exponent * steps) : min(color.a * steps, 1.0);
     return vec4(color.rgb * color.a, color.a);
@@ -32,3 +50,4 @@ vec4 segment_color(Ray ray, uint pass) {
     }
     return segment;
 }
+#endif

@@ -40,15 +40,15 @@ float burdened(float value) {
     return floatBitsToUint(found) == 0x7f800001u ? 0.0 : value;
 }
 
-// Scalar value at sample `i`, in units of the texture.
-float sample_volume(Ray ray, uint i) {
-    return burdened(FILTER_EXACT ? sample_exact(sample_place(ray, i)) : textureLod(volume, sample_position(ray, i), 0.0).r);
+// Scalar value `steps` from the entry point, in units of the texture.
+float sample_volume(Ray ray, float steps) {
+    return burdened(FILTER_EXACT ? sample_exact(place_at(ray, steps)) : textureLod(volume, position_at(ray, steps), 0.0).r);
 }
 
 // Whether sample `i` lies in a cell that stays transparent since a corner is not a finite number.
 bool in_hole(Ray ray, uint i) {
 #ifdef HOLES
-    return texelFetch(holes, cell_of(sample_place(ray, i)), 0).r != 0u;
+    return texelFetch(holes, cell_of(place_at(ray, steps_to(i))), 0).r != 0u;
 #else
     return false;
 #endif

@@ -10,7 +10,7 @@ use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
 use crate::scene::settings::{
-    Accumulate, Alpha, Builder, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
+    Accumulate, Alpha, Builder, Classification, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
 };
 use crate::scene::transfer::PRESETS;
 use crate::scene::volume::VoxelType;
@@ -92,6 +92,9 @@ pub struct SceneOptions {
     /// Who interpolates the volume [default: hardware]
     #[arg(long, value_name = "WHO", help_heading = "Sampling")]
     filter: Option<Filter>,
+    /// What the transfer function is asked for: values of samples, or all values from one to the next [default: post]
+    #[arg(long, value_name = "WHAT", help_heading = "Sampling")]
+    classification: Option<Classification>,
     /// M, samples per main pass [default: 8]
     #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Sampling")]
     samples_per_pass: Option<u32>,
@@ -211,6 +214,7 @@ impl SceneOptions {
         put(&mut sampling.last, &self.last);
         put(&mut sampling.alpha, &self.alpha);
         put(&mut sampling.filter, &self.filter);
+        put(&mut sampling.classification, &self.classification);
         put(&mut sampling.samples_per_pass, &self.samples_per_pass);
         put(&mut sampling.passes, &self.passes);
         put(&mut sampling.termination, &self.termination);

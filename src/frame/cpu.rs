@@ -63,12 +63,14 @@ pub const SUB_PIXEL_BITS: u32 = 8;
 /// Runs the plan as a device whose rasteriser has a raster of 2^-`sub_pixel_bits` pixels would.
 pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: u32) -> CpuFrame {
     let height = plan.view.size[1];
+    let table = structures.table(scene);
     let twin = Twin {
         scene,
         rays: plan.view.rays,
         passes: plan.passes,
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
+        table: table.as_deref(),
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
     let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();

@@ -13,6 +13,7 @@ use super::upload;
 use crate::error::{Error, Result};
 use crate::pass::resource::Resource;
 use crate::plan::Plan;
+use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::scene::settings::Filter;
 use crate::shared;
@@ -31,6 +32,8 @@ pub struct Resident {
     pub(super) pipelines: Pipelines,
     /// What building the blocks' ranges took, milliseconds.
     blocks_ms: Option<f64>,
+    /// The table whose image and axes are here.
+    table: Option<Arc<Table>>,
 }
 
 impl Resident {
@@ -42,6 +45,7 @@ impl Resident {
             distances: Distances::default(),
             pipelines: Pipelines::new(device),
             blocks_ms: None,
+            table: None,
         }
     }
 
@@ -84,6 +88,7 @@ impl Resident {
     pub fn forget_transfer(&mut self) {
         self.buffers.remove(&Resource::Transfer);
         self.images.remove(&Resource::BlockTable);
+        self.table = None;
         self.distances.forget_transfer();
     }
 
@@ -134,6 +139,11 @@ impl Resident {
                 self.make(resource, scene)?;
             }
         }
+        if reads(Resource::Preintegrated)
+            && let Some(table) = structures.table(scene)
+        {
+            self.take_table(scene, table)?;
+        }
         if reads(Resource::BlockTable) && self.buffer(Resource::CellRange).is_none() {
             let ms = self.with_source(scene, |distances, device, pipelines, source| {
                 distances.build_ranges(device, pipelines, source, BLOCK as u32)
@@ -147,6 +157,22 @@ impl Resident {
                 distances.build(device, pipelines, source, &lookup)
             }),
         }
+    }
+
+    /// Uploads a table of pre-integrated classification, unless it is the one that is here.
+    fn take_table(&mut self, scene: &Scene, table: Arc<Table>) -> Result<()> {
+        if self.table.as_ref().is_some_and(|there| Arc::ptr_eq(there, &table)) {
+            return Ok(());
+        }
+        let extent = [table.nodes, table.nodes, 1];
+        let bytes = bytemuck::cast_slice(&table.texels);
+        let image = self.upload_image(Resource::Preintegrated, extent, vk::Format::R32G32B32A32_SFLOAT, bytes)?;
+        self.images.insert(Resource::Preintegrated, image);
+        let texels = texels(scene);
+        let pieces = shared::axis_pieces(&table, |x| texels.scale * x + texels.offset);
+        self.upload_buffer(Resource::Axis, bytemuck::cast_slice(&pieces))?;
+        self.table = Some(table);
+        Ok(())
     }
 
     /// Uploads distances that were built on the host.
@@ -208,17 +234,7 @@ impl Resident {
             }
             Resource::Transfer => {
                 let pieces = shared::pieces(&texels(scene).transfer(&scene.transfer));
-                let buffer = Buffer::new(
-                    &self.device,
-                    BufferInfo {
-                        name: resource.name().to_owned(),
-                        size: size_of_val(pieces.as_slice()) as u64,
-                        usage: vk::BufferUsageFlags::STORAGE_BUFFER,
-                        place: Place::Upload,
-                    },
-                )?;
-                buffer.write(0, bytemuck::cast_slice(&pieces))?;
-                self.buffers.insert(resource, buffer);
+                self.upload_buffer(resource, bytemuck::cast_slice(&pieces))?;
             }
             Resource::BlockTable => {
                 let table = blocks::visibility_table(&texels(scene).transfer(&scene.transfer));
@@ -230,7 +246,23 @@ impl Resident {
         Ok(())
     }
 
+    fn upload_buffer(&mut self, resource: Resource, bytes: &[u8]) -> Result<()> {
+        let buffer = Buffer::new(
+            &self.device,
+            BufferInfo {
+                name: resource.name().to_owned(),
+                size: bytes.len() as u64,
+                usage: vk::BufferUsageFlags::STORAGE_BUFFER,
+                place: Place::Upload,
+            },
+        )?;
+        buffer.write(0, bytes)?;
+        self.buffers.insert(resource, buffer);
+        Ok(())
+    }
+
     fn upload_image(&self, resource: Resource, extent: [usize; 3], format: vk::Format, bytes: &[u8]) -> Result<Image> {
+        let flat = matches!(resource, Resource::BlockTable | Resource::Preintegrated);
         let image = Image::new(
             &self.device,
             ImageInfo {
@@ -238,8 +270,8 @@ impl Resident {
                 extent: extent.map(|n| u32::try_from(n).unwrap_or(u32::MAX)),
                 format,
                 usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-                volume: resource != Resource::BlockTable,
-                shared: resource != Resource::BlockTable,
+                volume: !flat,
+                shared: !flat,
             },
         )?;
         upload::image(&self.device, &image, bytes)?;

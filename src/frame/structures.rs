@@ -1,10 +1,13 @@
 //! The structures a plan asks for, built on the CPU, with what building them took.
 
+use std::sync::Arc;
+
 use cpu_time::ProcessTime;
 
 use super::texture::Texels;
 use crate::pass::resource::Resource;
 use crate::plan::Plan;
+use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
@@ -23,6 +26,8 @@ pub struct Built<T> {
 pub struct Structures {
     pub distances: Vec<(Lookup, Built<DistanceField>)>,
     pub blocks: Option<Built<Blocks>>,
+    /// Of pre-integrated classification, for one transfer function and one step.
+    pub table: Option<Arc<Table>>,
 }
 
 impl Structures {
@@ -39,6 +44,12 @@ impl Structures {
         if self.blocks.is_none() && reads(Resource::CellRange) {
             self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
         }
+    }
+
+    /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
+    pub fn table(&self, scene: &Scene) -> Option<Arc<Table>> {
+        let new = || self.table.clone().unwrap_or_else(|| Arc::new(Table::new(scene)));
+        scene.settings.sampling.spans().then(new)
     }
 
     /// The distances of that kind, where they were built.

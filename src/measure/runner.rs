@@ -132,6 +132,7 @@ impl<'a> Runner<'a> {
     pub fn vary(&mut self, change: impl FnOnce(&mut Settings)) {
         change(&mut self.scene.settings);
         self.references.clear();
+        self.structures.table = None;
     }
 
     pub fn scene(&self) -> &Scene {
@@ -169,6 +170,7 @@ impl<'a> Runner<'a> {
             return prepare_cpu(scene, plan);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
+        self.structures.table = self.structures.table(&scene);
         if builds_on_host(&checked.device, &scene, &plan) {
             self.structures.prepare(&scene, &plan);
         }
@@ -194,7 +196,8 @@ impl<'a> Runner<'a> {
                 scene.settings.sampling.passes = passes;
                 scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
                 let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
-                Ok(place.insert(cpu::run(&scene, &plan, &Structures::default(), bits)))
+                let structures = Structures { table: self.structures.table.clone(), ..Structures::default() };
+                Ok(place.insert(cpu::run(&scene, &plan, &structures, bits)))
             }
         }
     }

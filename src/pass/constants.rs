@@ -1,5 +1,6 @@
 //! Specialization constants that several passes set, by the shader header that declares them.
 
+use super::resource::{Access, Resource, Usage};
 use crate::scene::Scene;
 use crate::scene::settings::{Alpha, Distance, Filter, Last};
 
@@ -14,9 +15,11 @@ pub fn samples(scene: &Scene) -> Constant {
 /// Of `volume.glsl`, `transfer.glsl` and `segment.glsl`: what taking samples leaves out for this scene.
 pub fn segment(scene: &Scene) -> [Constant; 6] {
     let sampling = &scene.settings.sampling;
-    let pieces = scene.transfer.knots().len() as u32;
-    let corrected = sampling.alpha == Alpha::Exponential
-        && (sampling.last == Last::Partial || sampling.step != scene.transfer.reference);
+    // Axes go on beyond the first knot and the last.
+    let pieces = scene.transfer.knots().len() as u32 + u32::from(sampling.spans());
+    // A table has them for its step.
+    let other_step = sampling.step != scene.transfer.reference && !sampling.spans();
+    let corrected = sampling.alpha == Alpha::Exponential && (sampling.last == Last::Partial || other_step);
     [
         ("FILTER_EXACT", u32::from(sampling.filter == Filter::Exact)),
         ("PIECES", pieces),
@@ -28,12 +31,30 @@ pub fn segment(scene: &Scene) -> [Constant; 6] {
 }
 
 /// Of `near_neighbor.glsl`: how distances are looked up.
-pub fn near_neighbor(scene: &Scene) -> [Constant; 4] {
+pub fn near_neighbor(scene: &Scene) -> [Constant; 5] {
     let method = &scene.settings.method;
     [
         ("EXIT_LOOKAHEAD", u32::from(method.exit_lookahead)),
         ("CELL", method.cell),
         ("LOOKUPS", method.lookups),
+        spans(scene),
         ("OCTANTS", u32::from(method.name.distance() == Some(Distance::Directional))),
     ]
+}
+
+/// Of passes that look ahead: a sample stands for all values up to the next one.
+pub fn spans(scene: &Scene) -> Constant {
+    ("SPANS", u32::from(scene.settings.sampling.spans()))
+}
+
+/// What classifies samples: the resources, and the macros' variant that reads them.
+pub fn classification(scene: &Scene) -> (Vec<Access>, Option<&'static str>) {
+    let sampled = |resources: &[Resource]| resources.iter().map(|r| Usage::Sampled.of(*r)).collect();
+    if scene.settings.sampling.spans() {
+        return (sampled(&[Resource::Preintegrated, Resource::Axis]), Some("preintegrated"));
+    }
+    if scene.field.holes.is_some() {
+        return (sampled(&[Resource::Transfer, Resource::Holes]), Some("holes"));
+    }
+    (sampled(&[Resource::Transfer]), None)
 }

@@ -18,7 +18,6 @@ pub fn fused(scene: &Scene, pass: u32, passes: u32, form: Form) -> Step {
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::NearestDistance),
         Usage::Sampled.of(Resource::Volume),
-        Usage::Sampled.of(Resource::Transfer),
         Usage::ColorInput.of(Resource::Accumulated),
     ];
     let marks = (pass + 1 < passes).then_some(form.mark);
@@ -26,10 +25,9 @@ pub fn fused(scene: &Scene, pass: u32, passes: u32, form: Form) -> Step {
     if form.cull == Cull::Discard {
         variant.push("discard");
     }
-    if scene.field.holes.is_some() {
-        variant.push("holes");
-        accesses.push(Usage::Sampled.of(Resource::Holes));
-    }
+    let (classified, by) = constants::classification(scene);
+    accesses.extend(classified);
+    variant.extend(by);
     let shader = format!("fused.frag:{}", variant.join("+"));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
     draw.blend = true;

@@ -14,19 +14,13 @@ pub fn main_pass(scene: &Scene, pass: u32, culled: Option<(Cull, f32)>) -> Step 
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::Volume),
-        Usage::Sampled.of(Resource::Transfer),
         Usage::Color.of(Resource::Accumulated),
     ];
-    let discard = matches!(culled, Some((Cull::Discard, _)));
-    if scene.field.holes.is_some() {
-        accesses.push(Usage::Sampled.of(Resource::Holes));
-    }
-    let variant = match (discard, scene.field.holes.is_some()) {
-        (false, false) => "plain",
-        (false, true) => "holes",
-        (true, false) => "discard",
-        (true, true) => "discard+holes",
-    };
+    let (classified, by) = constants::classification(scene);
+    accesses.extend(classified);
+    let discard = matches!(culled, Some((Cull::Discard, _))).then_some("discard");
+    let variant: Vec<&str> = discard.into_iter().chain(by).collect();
+    let variant = if variant.is_empty() { "plain".to_owned() } else { variant.join("+") };
     let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
     draw.blend = true;
     draw.constants.push(constants::samples(scene));

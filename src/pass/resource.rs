@@ -26,6 +26,9 @@ pub enum Resource {
     Holes,
     /// Pieces of the transfer function.
     Transfer,
+    /// The table of pre-integrated classification, and its axes.
+    Preintegrated,
+    Axis,
     /// Distance to the nearest interesting cell.
     NearestDistance,
     /// Minimum and maximum of every cell of a grid, or every block [KW03 §2.3].
@@ -67,6 +70,8 @@ impl Resource {
             Self::Volume => "volume",
             Self::Holes => "holes",
             Self::Transfer => "transfer",
+            Self::Preintegrated => "preintegrated",
+            Self::Axis => "axis",
             Self::NearestDistance => "nearest_distance",
             Self::CellRange => "cell_range",
             Self::BlockTable => "block_table",

@@ -84,8 +84,10 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
 /// Plans the frame of a scene in the given form.
 ///
 /// # Errors
-/// When the camera is not one, or the view needs more main passes than can be.
+/// When the camera is not one, the view needs more main passes than can be, or the scene cannot be classified as it asks
+/// for.
 pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
+    crate::reference::preintegrated::check(scene)?;
     let view = View::new(scene)?;
     let sampling = &scene.settings.sampling;
     let needed = view.longest_samples.div_ceil(sampling.samples_per_pass);
@@ -160,8 +162,13 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
     }
     if sampling.alpha == Alpha::Paper {
         leave("opacity correction", "alpha = \"paper\" takes opacities as they stand".to_owned());
+    } else if sampling.last == Last::Full && sampling.spans() {
+        leave("opacity correction", "the pre-integrated table is made for the step".to_owned());
     } else if sampling.last == Last::Full && sampling.step == scene.transfer.reference {
         leave("opacity correction", "the step is the reference length".to_owned());
+    }
+    if !sampling.spans() {
+        leave("pre-integrated table", "samples are classified by their own value".to_owned());
     }
     if sampling.last == Last::Full {
         leave("length of the last sample", "every sample stands for a whole step".to_owned());

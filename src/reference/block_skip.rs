@@ -1,6 +1,7 @@
 //! Twin of `glsl/block_skip.frag`: stopping criterion and empty blocks [KW03 §2.3].
 
 use super::{DEAD, Effect, Pixel, Twin};
+use crate::structure::blocks::Blocks;
 
 /// Depth of a ray whose next segment is empty, as in the shader.
 pub const SKIPPED: f64 = 0.5;
@@ -15,10 +16,27 @@ pub fn block_skip(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let saturated = twin.saturated(pixel);
     pixel.stored = if first >= end || saturated {
         DEAD
-    } else if (first..end).any(|i| twin.at_cell(pixel, i, |cell| blocks.visible(cell))) {
+    } else if (first..end).any(|i| visible(twin, blocks, pixel, i)) {
         0.0
     } else {
         SKIPPED
     };
     Effect::Silent
+}
+
+/// Whether anything shows in the block of sample `i`; where samples stand for all values up to the next one, in the
+/// blocks from there to that of the next one too.
+fn visible(twin: &Twin, blocks: &Blocks, pixel: &mut Pixel, i: u32) -> bool {
+    if twin.table.is_none() {
+        return twin.at_cell(pixel, i, |cell| blocks.visible(cell));
+    }
+    let [front, back] = twin.span(pixel, i);
+    let ray = *pixel;
+    let (found, undecided) = twin.at_cell_of(pixel, front, |from| {
+        let mut other = ray;
+        let found = twin.at_cell_of(&mut other, back, |to| blocks.visible_between(from, to));
+        (found, other.undecided)
+    });
+    pixel.undecided |= undecided;
+    found
 }

@@ -45,6 +45,11 @@ const BLACK: f64 = 1e-17;
 /// Integrates rays through one field under one transfer function.
 pub struct ExactIntegrator<'a> {
     field: &'a Field,
+    medium: Absorber<'a>,
+}
+
+/// A transfer function as a medium that light passes through.
+pub struct Absorber<'a> {
     transfer: &'a TransferFunction,
     /// Values of x at which the transfer function bends or jumps, rising.
     levels: Vec<f64>,
@@ -67,10 +72,7 @@ struct Light {
 
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
-        let mut levels: Vec<f64> = transfer.knots().iter().map(|k| k.x).collect();
-        levels.dedup();
-        let brightest = transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
-        Self { field, transfer, levels, brightest }
+        Self { field, medium: Absorber::new(transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -81,15 +83,14 @@ impl<'a> ExactIntegrator<'a> {
         let line = Line { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
         let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
         for pair in self.plane_cuts(&line, length).windows(2) {
-            if light.transmittance * self.brightest < BLACK {
+            if light.transmittance * self.medium.brightest < BLACK {
                 break;
             }
             if pair[0] < pair[1] {
                 self.cell(&line, pair[0], pair[1], length, &mut light);
             }
         }
-        let [r, g, b] = light.color;
-        [r, g, b, 1.0 - light.transmittance]
+        light.rgba()
     }
 
     /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to
@@ -164,13 +165,31 @@ impl<'a> ExactIntegrator<'a> {
         });
         let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
         let most = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if self.transfer.visible(least, most) {
-            self.pieces(&Cubic::of_cell(corners, start, rise), b - a, length, light);
+        if self.medium.transfer.visible(least, most) {
+            let lengths = (b - a) / (self.medium.transfer.reference * self.field.finest());
+            self.medium.add(&Cubic::of_cell(corners, start, rise), lengths, (b - a) / length, light);
         }
     }
+}
 
-    /// Adds a part of the ray of `extent` volume units, of which `x` gives the scalar for s from 0 to 1.
-    fn pieces(&self, x: &Cubic, extent: f64, length: f64, light: &mut Light) {
+impl<'a> Absorber<'a> {
+    pub fn new(transfer: &'a TransferFunction) -> Self {
+        let mut levels: Vec<f64> = transfer.knots().iter().map(|k| k.x).collect();
+        levels.dedup();
+        let brightest = transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
+        Self { transfer, levels, brightest }
+    }
+
+    /// Premultiplied RGBA of a way of so many reference `lengths` on which x goes evenly from `front` to `back`.
+    pub fn ramp(&self, front: f64, back: f64, lengths: f64) -> [f64; 4] {
+        let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
+        self.add(&Cubic([front, back - front, 0.0, 0.0]), lengths, 1.0, &mut light);
+        light.rgba()
+    }
+
+    /// Adds a part of a ray of so many reference `lengths`, a `share` of the whole ray, of which `x` gives the scalar for
+    /// s from 0 to 1.
+    fn add(&self, x: &Cubic, lengths: f64, share: f64, light: &mut Light) {
         let mut cuts = Vec::new();
         x.cut(&self.levels, &mut cuts);
         for (a, b) in cuts.windows(2).map(|c| (c[0], c[1])).filter(|(a, b)| a < b) {
@@ -191,8 +210,8 @@ impl<'a> ExactIntegrator<'a> {
             let medium = Medium {
                 x,
                 segment: &segment,
-                scale: extent / (self.transfer.reference * self.field.finest()),
-                share: extent / length,
+                scale: lengths,
+                share,
                 steepest: slope.iter().fold(0.0, |most: f64, c| most.max(c.abs())) / self.brightest,
             };
             let stretch = medium.stretch(a, b, light.transmittance);
@@ -202,6 +221,11 @@ impl<'a> ExactIntegrator<'a> {
 }
 
 impl Light {
+    fn rgba(&self) -> [f64; 4] {
+        let [r, g, b] = self.color;
+        [r, g, b, 1.0 - self.transmittance]
+    }
+
     /// A stretch that begins in the colour `begin`, behind all that came before.
     fn add(&mut self, begin: [f64; 3], opacity: f64, slope: [f64; 3], rise: f64) {
         for (c, color) in self.color.iter_mut().enumerate() {

@@ -7,6 +7,7 @@ pub mod exact;
 pub mod fused;
 pub mod main_pass;
 pub mod near_neighbor;
+pub mod preintegrated;
 pub mod samples;
 pub mod section;
 pub mod segment;
@@ -31,6 +32,8 @@ pub struct Twin<'a> {
     pub passes: u32,
     pub distance: Option<&'a DistanceField>,
     pub blocks: Option<&'a Blocks>,
+    /// Of pre-integrated classification.
+    pub table: Option<&'a preintegrated::Table>,
 }
 
 /// One pixel of every image of the frame.

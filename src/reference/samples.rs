@@ -34,10 +34,24 @@ impl Twin<'_> {
         (shifted - shifted.round()).abs() > LENGTH_ROUNDING * steps.max(1.0)
     }
 
+    /// Steps from the entry point to sample `i`.
+    pub fn steps_to(&self, i: u32) -> f64 {
+        f64::from(i) + self.scene.settings.sampling.offset.steps()
+    }
+
+    /// The begin and the end of the step after sample `i`, in steps, cut off at the exit point.
+    pub fn span(&self, pixel: &Pixel, i: u32) -> [f64; 2] {
+        [self.steps_to(i), self.steps_to(i + 1).min(self.steps(pixel))]
+    }
+
+    /// Texture coordinates `steps` from the entry point.
+    pub fn position_at(&self, pixel: &Pixel, steps: f64) -> DVec3 {
+        pixel.entry + pixel.direction / self.scene.field.extent() * (steps * self.step_length())
+    }
+
     /// Position of sample `i`, texture coordinates.
     pub fn sample_position(&self, pixel: &Pixel, i: u32) -> DVec3 {
-        let distance = (f64::from(i) + self.scene.settings.sampling.offset.steps()) * self.step_length();
-        pixel.entry + pixel.direction / self.scene.field.extent() * distance
+        self.position_at(pixel, self.steps_to(i))
     }
 
     /// Texture coordinates to voxel coordinates (centres at i + 0.5).
@@ -48,7 +62,12 @@ impl Twin<'_> {
     /// What `look` says of the cell that sample `i` lies in; undecided where it says another thing of one beside it
     /// that f32 might take.
     pub fn at_cell<T: PartialEq>(&self, pixel: &mut Pixel, i: u32, look: impl Fn([usize; 3]) -> T) -> T {
-        let voxel = self.voxel(self.sample_position(pixel, i));
+        self.at_cell_of(pixel, self.steps_to(i), look)
+    }
+
+    /// The same for the cell `steps` from the entry point.
+    pub fn at_cell_of<T: PartialEq>(&self, pixel: &mut Pixel, steps: f64, look: impl Fn([usize; 3]) -> T) -> T {
+        let voxel = self.voxel(self.position_at(pixel, steps));
         let found = look(self.scene.field.cell_at(voxel));
         let near = |by: f64| self.scene.field.cell_at(voxel + DVec3::splat(by));
         let (low, high) = (near(-FACE_ROUNDING), near(FACE_ROUNDING));

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::preintegrated::{Table, part_of};
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::trilinear;
 use crate::math::opacity::{composite, corrected_opacity};
@@ -24,18 +25,39 @@ impl Twin<'_> {
                 return [0.0; 4];
             }
         }
-        let value = trilinear(&field.values, field.dims(), voxel);
-        pixel.undecided |= transfer.jumps().any(|x| self.may_cross(x, value, voxel));
+        let value = self.value(pixel, voxel);
         let [r, g, b, a] = transfer.evaluate(value);
-        let steps = match sampling.last {
-            Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
-            _ => 1.0,
-        };
+        let steps = self.extent_of_sample(pixel, i);
         let alpha = match sampling.alpha {
             Alpha::Exponential => corrected_opacity(a, steps * sampling.step / transfer.reference),
             Alpha::Paper => (a * steps).min(1.0),
         };
         [r * alpha, g * alpha, b * alpha, alpha]
+    }
+
+    /// Steps that sample `i` stands for.
+    fn extent_of_sample(&self, pixel: &Pixel, i: u32) -> f64 {
+        match self.scene.settings.sampling.last {
+            Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
+            _ => 1.0,
+        }
+    }
+
+    /// The scalar at `voxel`; undecided where f32 may see it on the other side of a jump.
+    fn value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
+        let field = &self.scene.field;
+        let value = trilinear(&field.values, field.dims(), voxel);
+        pixel.undecided |= self.scene.transfer.jumps().any(|x| self.may_cross(x, value, voxel));
+        value
+    }
+
+    /// Premultiplied colour of sample `i`, which stands for all values up to that of the next one or of the exit point.
+    fn shade_span(&self, table: &Table, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        let [front, back] = self.span(pixel, i).map(|steps| {
+            let voxel = self.voxel(self.position_at(pixel, steps));
+            table.node(self.value(pixel, voxel))
+        });
+        part_of(table.between(front, back), self.extent_of_sample(pixel, i), self.scene.settings.sampling.alpha)
     }
 
     /// Whether f32 may have a `value` interpolated at `voxel` on the other side of a `jump`.
@@ -54,7 +76,10 @@ impl Twin<'_> {
         let mut segment = [0.0; 4];
         let mut effect = Effect::Silent;
         for i in first..end {
-            let sample = self.shade_sample(pixel, i);
+            let sample = match self.table {
+                Some(table) => self.shade_span(table, pixel, i),
+                None => self.shade_sample(pixel, i),
+            };
             if sample[3] > 0.0 {
                 effect = Effect::Contributed;
             }

@@ -142,6 +142,7 @@ pub struct SamplingSettings {
     pub last: Last,
     pub alpha: Alpha,
     pub filter: Filter,
+    pub classification: Classification,
     /// M: samples per main pass.
     pub samples_per_pass: u32,
     /// N: main passes; 0 takes as many as the longest ray of this view needs.
@@ -160,12 +161,31 @@ impl Default for SamplingSettings {
             last: Last::Full,
             alpha: Alpha::Exponential,
             filter: Filter::Hardware,
+            classification: Classification::Post,
             samples_per_pass: 8,
             passes: 0,
             termination: 0.95,
             extra_fetches: 0,
         }
     }
+}
+
+impl SamplingSettings {
+    /// Whether a sample stands for all values up to the next one, not for its own alone.
+    pub fn spans(&self) -> bool {
+        self.classification == Classification::PreIntegrated
+    }
+}
+
+/// What the transfer function is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Classification {
+    /// The value of a sample.
+    #[default]
+    Post,
+    /// All values from one sample to the next, by a table made for the step; the value goes evenly between them.
+    PreIntegrated,
 }
 
 /// Where in its step a sample is taken.

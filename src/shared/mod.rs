@@ -9,6 +9,7 @@ pub use slice::Slice;
 use bytemuck::{Pod, Zeroable};
 
 use crate::math::ray::ViewRays;
+use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::scene::transfer::TransferFunction;
 
@@ -110,4 +111,24 @@ pub fn pieces(transfer: &TransferFunction) -> Vec<Piece> {
             Piece { rgba: rgba(i), change, begin, inverse_length, unused: [0.0; 2] }
         })
         .collect()
+}
+
+/// `AxisPiece` of `glsl/shared/preintegrated.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct AxisPiece {
+    pub begin: f32,
+    pub inverse_length: f32,
+    pub first: f32,
+    pub intervals: f32,
+}
+
+/// The pieces of a table's axes; `map` takes x to units of the volume texture.
+pub fn axis_pieces(table: &Table, map: impl Fn(f64) -> f64) -> Vec<AxisPiece> {
+    let piece = |piece: &crate::reference::preintegrated::AxisPiece| {
+        let [begin, end] = piece.x.map(|x| map(x) as f32);
+        let inverse_length = if end > begin { 1.0 / (end - begin) } else { 0.0 };
+        AxisPiece { begin, inverse_length, first: piece.first as f32, intervals: piece.intervals as f32 }
+    };
+    table.pieces.iter().map(piece).collect()
 }

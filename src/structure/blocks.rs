@@ -104,6 +104,16 @@ impl Blocks {
         field.cells().map(|cells| cells.div_ceil(BLOCK))
     }
 
+    /// Whether anything may show in the blocks from that of one cell to that of another, those in the corners between
+    /// them included.
+    pub fn visible_between(&self, from: [usize; 3], to: [usize; 3]) -> bool {
+        let along = |axis: usize| {
+            let (a, b) = (from[axis] / BLOCK, to[axis] / BLOCK);
+            (a.min(b)..=a.max(b)).map(|block| block * BLOCK)
+        };
+        along(2).any(|z| along(1).any(|y| along(0).any(|x| self.visible([x, y, z]))))
+    }
+
     /// Whether anything may show in the block of `cell`.
     pub fn visible(&self, cell: [usize; 3]) -> bool {
         let [x, y, z] = cell.map(|c| c / BLOCK);

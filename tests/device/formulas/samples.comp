@@ -13,9 +13,9 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     Ray ray = load_ray();
     uint index = uint(arguments.values[i].x);
-    Place place = sample_place(ray, index);
+    Place place = place_at(ray, steps_to(index));
     results.values[4 * i] = vec4(ray.steps, float(ray.samples), 0.0, 0.0);
-    results.values[4 * i + 1] = vec4(sample_position(ray, index), 0.0);
+    results.values[4 * i + 1] = vec4(position_at(ray, steps_to(index)), 0.0);
     results.values[4 * i + 2] = vec4(place.below, 0.0);
     results.values[4 * i + 3] = vec4(place.weight, 0.0);
 }

@@ -104,7 +104,7 @@ fn cases(device: &Arc<Device>, evaluator: &Evaluator, scene: &Scene) -> Vec<Case
 }
 
 fn twin(scene: &Scene) -> Twin<'_> {
-    Twin { scene, rays: scene.camera.rays([ROW, ROWS]).unwrap(), passes: 1, distance: None, blocks: None }
+    Twin { scene, rays: scene.camera.rays([ROW, ROWS]).unwrap(), passes: 1, distance: None, blocks: None, table: None }
 }
 
 fn count_of_samples_is_its_twin(device: &Arc<Device>) {
