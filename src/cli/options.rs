@@ -48,7 +48,7 @@ pub struct SceneOptions {
 
     /// Picture size in pixels [default: 500x500]
     #[arg(long, value_name = "WxH", value_parser = viewport, allow_hyphen_values = true, help_heading = "View")]
-    viewport: Option<[u32; 2]>,
+    pub(super) viewport: Option<[u32; 2]>,
     /// Eye in volume space: the longest side of the volume is 1, its centre 0,0,0 [default: 0,0,1.91]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, help_heading = "View")]
     eye: Option<[f64; 3]>,
@@ -103,7 +103,7 @@ pub struct SceneOptions {
     passes: Option<u32>,
     /// T, a ray ends when its opacity is greater; 1 ends none early [default: 0.95]
     #[arg(long, value_name = "OPACITY", allow_negative_numbers = true, help_heading = "Sampling")]
-    termination: Option<f64>,
+    pub(super) termination: Option<f64>,
     /// Artificial cost of a sample: so many further fetches, one after another, which change no picture [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Sampling")]
     extra_fetches: Option<u32>,

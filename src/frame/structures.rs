@@ -34,6 +34,7 @@ impl Structures {
     /// Adds what the plan reads and is not there yet. All of it depends on volume and transfer function, some on the
     /// view besides, so that plans of one scene may share it.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
+        self.table = self.table(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::new(&scene.field, scene.settings.volume.texture);
             let transfer = texels.transfer(&scene.transfer);

@@ -1,5 +1,6 @@
 //! The command line on a device: pictures, counts, benches, and what a device refuses.
 
+mod accuracy;
 mod extremes;
 #[path = "../../cli/program.rs"]
 pub mod program;
@@ -37,6 +38,7 @@ pub fn tests() -> Vec<Test> {
         test("extra fetches change no picture and are swept", extra_fetches),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
+    tests.extend(accuracy::tests());
     tests.extend(extremes::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
 }

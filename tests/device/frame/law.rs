@@ -7,7 +7,7 @@ use depthleap::frame::Verdict;
 use depthleap::pass::cull::Form;
 use depthleap::plan::papers_form;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Accumulate, Distance, MethodName, Settings};
+use depthleap::scene::settings::{Accumulate, Classification, Distance, Last, MethodName, Offset, Settings};
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
@@ -42,7 +42,7 @@ const TURNS: [(&str, &[MethodName], Change); 4] = [
 ];
 
 /// Volume, transfer function and what else is set.
-const BUILT_IN: [(&str, &str, Change); 11] = [
+const BUILT_IN: [(&str, &str, Change); 13] = [
     ("shells:48", "ramp", |_| {}),
     // A jump of opacity, walls on block seams.
     ("blocks:64", "surface", |_| {}),
@@ -54,8 +54,7 @@ const BUILT_IN: [(&str, &str, Change); 11] = [
     ("shells:32", "ramp", |s| (s.sampling.step, s.sampling.samples_per_pass) = (0.3, 7)),
     ("blocks:48", "ramp", |s| {
         s.sampling.step = 2.5;
-        s.sampling.offset = depthleap::scene::settings::Offset::Midpoint;
-        s.sampling.last = depthleap::scene::settings::Last::Partial;
+        (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
     }),
     // One voxel thick, and N forced beyond and below what the view needs.
     ("shells:64x64x1", "ramp", |s| s.sampling.passes = 40),
@@ -64,6 +63,15 @@ const BUILT_IN: [(&str, &str, Change); 11] = [
     ("shells:40", "ramp", |s| (s.image.accumulate, s.sampling.termination) = (Accumulate::Rgba16f, 0.7)),
     ("gaussian:32", "linear", |s| {
         (s.image.accumulate, s.sampling.termination, s.sampling.samples_per_pass) = (Accumulate::Rgba8, 0.5, 2);
+    }),
+    // Samples that stand for all values up to the next one, which may lie in another block or beyond a wall.
+    ("blocks:40", "ramp", |s| {
+        (s.sampling.classification, s.sampling.last) = (Classification::PreIntegrated, Last::Partial);
+        s.sampling.step = 3.7;
+    }),
+    ("shells:40x36x32", "surface", |s| {
+        (s.sampling.classification, s.sampling.step) = (Classification::PreIntegrated, 0.7);
+        s.method.cell = 2;
     }),
     // 1 - 0.99^8 = 0.077 is a little above T when the last pass begins.
     ("constant:24", "haze", |s| {

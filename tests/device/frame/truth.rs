@@ -6,7 +6,7 @@ use depthleap::frame::CpuFrame;
 use depthleap::plan::papers_form;
 use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Last, MethodName, Offset, Settings};
+use depthleap::scene::settings::{Classification, Last, MethodName, Offset, Settings};
 use depthleap::vulkan::Device;
 
 use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen};
@@ -55,6 +55,18 @@ pub fn tests() -> Vec<Test> {
                     (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
                 }),
             );
+        }),
+        test("twin::steps_classified_as_a_whole", |device| {
+            for last in [Last::Full, Last::Partial] {
+                twin(
+                    device,
+                    &scene("shells:32x28x30", "surface", |s| {
+                        exactly(s);
+                        (s.sampling.classification, s.sampling.last) = (Classification::PreIntegrated, last);
+                        s.sampling.step = 1.7;
+                    }),
+                );
+            }
         }),
         test("twin::full_size", full_size),
         test("twin::would_see_a_shifted_sample", would_see_a_shifted_sample),

@@ -1,0 +1,87 @@
+//! `depthleap accuracy`: orders against theory, its files, and what it refuses.
+
+use std::sync::Arc;
+
+use depthleap::measure::accuracy::{Accuracy, Curve};
+use depthleap::vulkan::Device;
+
+use super::program::Place;
+use crate::harness::{Test, test};
+
+/// How far a measured order may be from theory's.
+const ORDER: f64 = 0.15;
+
+pub fn tests() -> Vec<Test> {
+    vec![
+        test("accuracy finds the orders of theory", orders),
+        test("accuracy measures what is asked for", asked_for),
+        test("accuracy refuses what it cannot measure", refused),
+    ]
+}
+
+fn read(place: &Place) -> Accuracy {
+    serde_json::from_slice(&place.read("out/accuracy.json")).unwrap()
+}
+
+fn curve<'a>(found: &'a Accuracy, name: &str) -> &'a Curve {
+    let names: Vec<String> = found.curves.iter().map(Curve::name).collect();
+    found.curves.iter().find(|curve| curve.name() == name).unwrap_or_else(|| panic!("no {name} in {names:?}"))
+}
+
+fn orders(_: &Arc<Device>) {
+    let place = Place::new();
+    let options = "--tf linear --viewport 40x40 --steps 2,1,0.5,0.25,0.125 --repeats 0";
+    place.done(&format!("accuracy builtin:gaussian:64 {options} --method rc,nn-omni --validate -o out"));
+    let found = read(&place);
+    for (name, theory) in [
+        ("rc, partial, exact filter", 1.0),
+        ("rc, midpoint, partial, exact filter", 2.0),
+        ("rc, pre-integrated, partial, exact filter", 2.0),
+    ] {
+        let curve = curve(&found, name);
+        let order = curve.order.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", curve.points)).order;
+        println!("{name}: {order:.3}");
+        assert_eq!(curve.expected, Some(theory), "{name}");
+        assert!((order - theory).abs() < ORDER, "{name} has the order {order}");
+    }
+    // Rays that end early stop falling where what lies behind begins to show.
+    let ended = curve(&found, "nn-omni, midpoint, partial");
+    assert!(ended.remarks.iter().any(|r| r.contains("0.999")), "{:?}", ended.remarks);
+    let last = ended.points.last().unwrap();
+    assert!(last.max.is_some_and(|max| max <= 1e-3 + 1e-5), "{last:?}");
+}
+
+fn asked_for(_: &Arc<Device>) {
+    let place = Place::new();
+    let options = "--viewport 24x20 --steps 2,1,0.5 --method rc-block --repeats 2";
+    let said = place.done(&format!("accuracy builtin:shells:24 {options} -o out")).text();
+    assert!(said.contains("For an error of at most 1/255") || said.contains("No run comes within"), "{said}");
+    let found = read(&place);
+    for curve in &found.curves {
+        assert_eq!(curve.method, "rc-block");
+        let steps: Vec<f64> = curve.points.iter().map(|p| p.step).collect();
+        assert_eq!(steps, [2.0, 1.0, 0.5]);
+        for point in &curve.points {
+            assert!(point.time().is_some_and(|ms| ms > 0.0) && point.timed == 2 && point.samples > 0, "{point:?}");
+        }
+        assert!(curve.points[0].samples < curve.points[2].samples);
+    }
+    assert!(found.curves.iter().flat_map(|c| &c.points).any(|p| p.pareto));
+    for (file, part) in [
+        ("accuracy.csv", "rc-block"),
+        ("accuracy.html", "<svg"),
+        ("error-time.svg", "</svg>"),
+        ("error-step.svg", "</svg>"),
+    ] {
+        let text = String::from_utf8(place.read(&format!("out/{file}"))).unwrap();
+        assert!(text.contains(part), "{file}");
+    }
+}
+
+fn refused(_: &Arc<Device>) {
+    let place = Place::new();
+    place.refused("accuracy builtin:shells:16 --method cpu -o out", 2, &["--method cpu", "no frame time"]);
+    place.refused("accuracy builtin:shells:16 --steps 1,0 -o out", 2, &["--step"]);
+    place.refused("accuracy builtin:shells:16 --steps 1,nan -o out", 2, &["--step"]);
+    place.refused("accuracy missing.nrrd -o out", 3, &["missing.nrrd"]);
+}
