@@ -10,7 +10,7 @@ use depthleap::frame::compile::target_format;
 use depthleap::frame::schedule::{Scheduled, schedule};
 use depthleap::pass::resource::{Resource, Usage};
 use depthleap::pass::{Step, Work};
-use depthleap::scene::settings::Accumulate;
+use depthleap::scene::settings::{Accumulate, Formats};
 use depthleap::vulkan::{Attachment, Role, vk};
 
 /// The steps of a plan that the graphics queue runs, and what stands around them.
@@ -24,7 +24,7 @@ fn schedulings() -> Vec<Scheduling> {
     let each = |case: cases::Case| {
         let steps = case.plan.steps.into_iter().filter(|step| !matches!(step.work, Work::Dispatch { .. }));
         let steps: Vec<Step> = steps.collect();
-        let scheduled = schedule(&steps, |resource| target_format(resource, Accumulate::Rgba32f));
+        let scheduled = schedule(&steps, |resource| target_format(resource, Formats::default()));
         assert_eq!(steps.len(), scheduled.len());
         Scheduling { name: case.name, steps, scheduled }
     };
@@ -195,7 +195,7 @@ fn last_marks_of_a_frame_that_nobody_copies_are_not_stored() {
     // The last step gone that uses them, and with it the reason to keep them.
     let case = cases().into_iter().find(|case| case.name == "nn-omni_ztest_copy").unwrap();
     let last = case.plan.steps.iter().rposition(|step| step.name.starts_with("mark_copy")).unwrap();
-    let scheduled = schedule(&case.plan.steps[..last], |resource| target_format(resource, Accumulate::Rgba8));
+    let scheduled = schedule(&case.plan.steps[..last], |resource| target_format(resource, Formats { accumulate: Accumulate::Rgba8, ..Formats::default() }));
     let pass = scheduled.last().unwrap().render_pass.as_ref().unwrap();
     let marks = pass.attachments.iter().find(|attachment| attachment.name == "marks").unwrap();
     assert_eq!(marks.store, vk::AttachmentStoreOp::DONT_CARE);

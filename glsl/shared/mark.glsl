@@ -12,8 +12,22 @@
 #endif
 
 #if defined(MARK_COPY)
-layout(location = MARK_LOCATION) out float mark;
-#define MARK(depth) mark = (depth)
+// Of the codes of the depth buffer, where its format is a normalised one (16 or 24), and the attachment has as many bytes;
+// 0 where both are floats.
+layout(constant_id = 13) const int DEPTH_BITS = 0;
+layout(location = MARK_LOCATION) out vec4 mark;
+
+// The texel that holds the same bytes as the depth buffer's.
+vec4 mark_texel(float depth) {
+    if (DEPTH_BITS == 0) {
+        return vec4(depth);
+    }
+    float greatest = float((1u << DEPTH_BITS) - 1u);
+    uint code = uint(min(round(depth * greatest), greatest));
+    // 24 bits of a code and 8 that are ignored, which make it a float that nobody takes for 0.
+    return DEPTH_BITS == 24 ? vec4(uintBitsToFloat(0x3f000000u | code)) : vec4(code & 255u, code >> 8, 0u, 0u) / 255.0;
+}
+#define MARK(depth) mark = mark_texel(depth)
 #elif defined(MARK_FRAGDEPTH)
 layout(depth_less) out float gl_FragDepth;
 #define MARK(depth) gl_FragDepth = (depth)

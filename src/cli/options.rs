@@ -10,7 +10,7 @@ use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
 use crate::scene::settings::{
-    Accumulate, Alpha, Builder, Classification, Cull, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
+    Accumulate, Alpha, Builder, Classification, Cull, DepthFormat, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
 };
 use crate::scene::transfer::PRESETS;
 use crate::scene::volume::VoxelType;
@@ -119,6 +119,9 @@ pub struct MethodOptions {
     /// How the intermediate pass stores its decision [default: auto]
     #[arg(long, value_name = "WAY")]
     pub mark: Option<Mark>,
+    /// Format of the depth buffer, in which passes are told apart [default: d32]
+    #[arg(long = "depth-format", value_name = "FORMAT")]
+    depth: Option<DepthFormat>,
     /// nn-*: notice that a ray has left the volume only on arrival, as the papers do
     #[arg(long)]
     no_exit_lookahead: bool,
@@ -228,6 +231,7 @@ impl MethodOptions {
         let method = &mut settings.method;
         method.cull = self.cull.unwrap_or(method.cull);
         method.mark = self.mark.unwrap_or(method.mark);
+        method.depth = self.depth.unwrap_or(method.depth);
         method.exit_lookahead &= !self.no_exit_lookahead;
         method.block_first |= self.block_first;
         method.cell = self.cell.unwrap_or(method.cell);

@@ -137,7 +137,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
     targets.sort();
     targets.dedup();
     let pixels = u64::from(plan.view.size[0]) * u64::from(plan.view.size[1]);
-    let accumulate = scene.settings.image.accumulate;
+    let formats = scene.settings.formats();
     let region = plan.view.region;
     PlanJson {
         version: crate::measure::record::FORMAT,
@@ -150,7 +150,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
         steps: steps.collect(),
         targets: targets
             .into_iter()
-            .map(|r| TargetJson { name: r.name(), bytes: pixels * bytes_per_pixel(r, accumulate) })
+            .map(|r| TargetJson { name: r.name(), bytes: pixels * bytes_per_pixel(r, formats) })
             .collect(),
         left_out: &plan.left_out,
     }

@@ -11,9 +11,9 @@ use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
 use crate::pass::resource::{Resource, Usage};
 use crate::pass::{Draw, Faces, Group, Step, Work};
-use crate::plan::{Plan, Region};
+use crate::plan::{Plan, Region, bytes_per_pixel};
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Filter};
+use crate::scene::settings::{Accumulate, DepthFormat, Filter, Formats};
 use crate::shared;
 use crate::vulkan::{
     Buffer, BufferInfo, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, Place, RenderPass,
@@ -62,15 +62,23 @@ struct Compiler<'a> {
 }
 
 /// The format of a target.
-pub fn target_format(resource: Resource, accumulate: Accumulate) -> vk::Format {
+pub fn target_format(resource: Resource, formats: Formats) -> vk::Format {
     match resource {
-        Resource::Accumulated => match accumulate {
+        Resource::Accumulated => match formats.accumulate {
             Accumulate::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
             Accumulate::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
             Accumulate::Rgba8 => vk::Format::R8G8B8A8_UNORM,
         },
-        Resource::Stored => vk::Format::D32_SFLOAT,
-        Resource::Marks => vk::Format::R32_SFLOAT,
+        Resource::Stored => match formats.depth {
+            DepthFormat::D32 => vk::Format::D32_SFLOAT,
+            DepthFormat::D24 => vk::Format::X8_D24_UNORM_PACK32,
+            DepthFormat::D16 => vk::Format::D16_UNORM,
+        },
+        // Of the same bytes, which are copied as they are.
+        Resource::Marks => match formats.depth {
+            DepthFormat::D32 | DepthFormat::D24 => vk::Format::R32_SFLOAT,
+            DepthFormat::D16 => vk::Format::R8G8_UNORM,
+        },
         _ => vk::Format::R32G32B32A32_SFLOAT,
     }
 }
@@ -81,13 +89,13 @@ pub fn target_format(resource: Resource, accumulate: Accumulate) -> vk::Format {
 /// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
 pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut Resident) -> Result<Compiled> {
     let steps: Vec<Step> = plan.steps.iter().filter(|s| s.group != Group::Structure).cloned().collect();
-    let accumulate = scene.settings.image.accumulate;
-    let scheduled = schedule(&steps, |r| target_format(r, accumulate));
+    let formats = scene.settings.formats();
+    let scheduled = schedule(&steps, |r| target_format(r, formats));
     let mut compiler = Compiler {
         device,
         plan,
         resident,
-        targets: targets(device, plan, accumulate)?,
+        targets: targets(device, plan, formats)?,
         frame: frame_buffer(device, scene, plan)?,
         linear: match scene.settings.sampling.filter {
             Filter::Hardware => Some(Sampler::new(device, "trilinear", true)?),
@@ -118,7 +126,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
                 device,
                 BufferInfo {
                     name: Resource::MarksBuffer.name().to_owned(),
-                    size: plan.view.region.pixels() * 4,
+                    size: plan.view.region.pixels() * bytes_per_pixel(Resource::Marks, formats),
                     usage: vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST,
                     place: Place::Device,
                 },
@@ -134,7 +142,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
     })
 }
 
-fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<HashMap<Resource, Image>> {
+fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMap<Resource, Image>> {
     let mut usages: HashMap<Resource, vk::ImageUsageFlags> = HashMap::new();
     for access in plan.steps.iter().flat_map(|s| &s.accesses).filter(|a| a.resource.is_target()) {
         let flags = usages.entry(access.resource).or_default();
@@ -151,12 +159,22 @@ fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<
             *flags |= vk::ImageUsageFlags::TRANSFER_SRC;
         }
     }
-    let accumulated = target_format(Resource::Accumulated, accumulate);
+    let accumulated = target_format(Resource::Accumulated, formats);
     if !device.format_supports(accumulated, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
         return Err(Error::device(
             &device.info.name,
             format!("cannot blend into {accumulated:?}"),
             "choose another image.accumulate: rgba32f, rgba16f or rgba8",
+        ));
+    }
+    let stored = target_format(Resource::Stored, formats);
+    if usages.contains_key(&Resource::Stored)
+        && !device.format_supports(stored, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT)
+    {
+        return Err(Error::device(
+            &device.info.name,
+            format!("has no depth format {stored:?}"),
+            "use --depth-format d32 or d16, which every device has",
         ));
     }
     let [width, height] = plan.view.size;
@@ -166,7 +184,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, accumulate: Accumulate) -> Result<
             let info = ImageInfo {
                 name: resource.name().to_owned(),
                 extent: [width, height, 1],
-                format: target_format(resource, accumulate),
+                format: target_format(resource, formats),
                 usage,
                 volume: false,
                 shared: false,

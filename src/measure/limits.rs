@@ -24,8 +24,8 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
     let mut resources: Vec<Resource> = plan.steps.iter().flat_map(|s| &s.accesses).map(|a| a.resource).collect();
     resources.sort();
     resources.dedup();
-    let accumulate = scene.settings.image.accumulate;
-    let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, accumulate)).sum();
+    let formats = scene.settings.formats();
+    let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, formats)).sum();
     let (needed, there) = (per_pixel * pixels(scene), info.memory_bytes);
     if needed > there {
         return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));

@@ -21,6 +21,7 @@ pub fn block_skip(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     let shader = format!("block_skip.frag:{}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
     draw.constants.push(constants::samples(scene));
+    draw.constants.push(constants::depth_bits(scene));
     draw.constants.push(constants::spans(scene));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step { name: format!("block_skip #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }

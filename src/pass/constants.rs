@@ -42,6 +42,11 @@ pub fn near_neighbor(scene: &Scene) -> [Constant; 5] {
     ]
 }
 
+/// Of `mark.glsl`: how marks that are copied are written.
+pub fn depth_bits(scene: &Scene) -> Constant {
+    ("DEPTH_BITS", scene.settings.method.depth.bits())
+}
+
 /// Of passes that look ahead: a sample stands for all values up to the next one.
 pub fn spans(scene: &Scene) -> Constant {
     ("SPANS", u32::from(scene.settings.sampling.spans()))

@@ -32,6 +32,7 @@ pub fn fused(scene: &Scene, pass: u32, passes: u32, form: Form) -> Step {
     let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
     draw.blend = true;
     draw.constants.push(constants::samples(scene));
+    draw.constants.push(constants::depth_bits(scene));
     draw.constants.extend(constants::segment(scene));
     draw.constants.extend(constants::near_neighbor(scene));
     let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);

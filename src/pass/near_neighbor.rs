@@ -26,6 +26,7 @@ pub fn near_neighbor(scene: &Scene, pass: u32, passes: u32, form: cull::Form) ->
     let shader = format!("near_neighbor.frag:{variant}");
     let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
     draw.constants.push(constants::samples(scene));
+    draw.constants.push(constants::depth_bits(scene));
     draw.constants.extend(constants::near_neighbor(scene));
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);

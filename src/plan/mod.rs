@@ -11,8 +11,9 @@ use crate::error::{Error, Result};
 use crate::pass::Step;
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
+use crate::reference::section::most_sections;
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Alpha, Cull, Filter, Last, Mark, MethodName};
+use crate::scene::settings::{Accumulate, Alpha, Cull, DepthFormat, Filter, Formats, Last, Mark, MethodName};
 use crate::structure::Lookup;
 
 /// The frame of one scene, ready to be run.
@@ -75,6 +76,8 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
     let mark = match method.mark {
         // These two always mark by copy [DESIGN 2.3]; the papers' ray casters keep writing depth.
         Mark::Auto if near_neighbor && matches!(cull, Cull::Ztest | Cull::Discard) => Mark::Copy,
+        // What is known of a device is known of the float format; what is copied is right in all.
+        Mark::Auto if near_neighbor && method.depth != DepthFormat::D32 => Mark::Copy,
         Mark::Auto => automatic.mark,
         mark => mark,
     };
@@ -98,6 +101,15 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
             format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
             format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
             "take longer steps or more samples a pass",
+        ));
+    }
+    let depth = scene.settings.method.depth;
+    let told_apart = most_sections(depth);
+    if scene.settings.method.name.distance().is_some() && passes > told_apart {
+        return Err(Error::usage(
+            format!("method.depth (--depth-format) {}", depth.name()),
+            format!("tells at most {told_apart} main passes apart, and this frame has {passes}"),
+            "use --depth-format d32, longer steps or more samples a pass",
         ));
     }
     let samples = u64::from(passes) * u64::from(sampling.samples_per_pass);
@@ -182,15 +194,18 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
 }
 
 /// Bytes a pixel of a target takes.
-pub fn bytes_per_pixel(resource: Resource, accumulate: Accumulate) -> u64 {
+pub fn bytes_per_pixel(resource: Resource, formats: Formats) -> u64 {
     match resource {
         Resource::Entry | Resource::Direction => 16,
-        Resource::Accumulated => match accumulate {
+        Resource::Accumulated => match formats.accumulate {
             Accumulate::Rgba32f => 16,
             Accumulate::Rgba16f => 8,
             Accumulate::Rgba8 => 4,
         },
-        Resource::Stored | Resource::Marks => 4,
+        Resource::Stored | Resource::Marks => match formats.depth {
+            DepthFormat::D32 | DepthFormat::D24 => 4,
+            DepthFormat::D16 => 2,
+        },
         _ => 0,
     }
 }

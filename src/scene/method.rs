@@ -129,6 +129,47 @@ pub enum Cull {
     Discard,
 }
 
+/// The depth buffer's format: how finely marks are told apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum DepthFormat {
+    /// D32_SFLOAT, which every device has.
+    #[default]
+    D32,
+    /// X8_D24_UNORM.
+    D24,
+    /// D16_UNORM, which every device has.
+    D16,
+}
+
+impl DepthFormat {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::D32 => "d32",
+            Self::D24 => "d24",
+            Self::D16 => "d16",
+        }
+    }
+
+    /// Bits of its codes; 0 for a float.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::D32 => 0,
+            Self::D24 => 24,
+            Self::D16 => 16,
+        }
+    }
+
+    /// The largest difference between depths of sections that it may not tell apart.
+    pub fn resolution(self) -> f64 {
+        match self {
+            // Half a unit in the last place below 0.5.
+            Self::D32 => 0.5f64.powi(26),
+            _ => 1.0 / f64::from((1u32 << self.bits()) - 1),
+        }
+    }
+}
+
 /// How the intermediate pass stores its decision.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::camera::Camera;
 use super::field::NanPolicy;
 use super::fixed;
-pub use super::method::{Cull, Distance, Mark, MethodName};
+pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 use super::volume::VoxelType;
 
 /// All keys of a scene file.
@@ -248,6 +248,8 @@ pub struct MethodSettings {
     pub name: MethodName,
     pub cull: Cull,
     pub mark: Mark,
+    /// The format of the depth buffer.
+    pub depth: DepthFormat,
     /// Mark a ray as gone as soon as its next section lies beyond its end.
     pub exit_lookahead: bool,
     /// Block skipping also tests before the first main pass.
@@ -275,6 +277,19 @@ pub enum Builder {
     Host,
 }
 
+/// The formats of what frames draw into.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Formats {
+    pub accumulate: Accumulate,
+    pub depth: DepthFormat,
+}
+
+impl Settings {
+    pub fn formats(&self) -> Formats {
+        Formats { accumulate: self.image.accumulate, depth: self.method.depth }
+    }
+}
+
 /// Sides a cell of a distance structure may have.
 pub const CELLS: [u32; 4] = [1, 2, 4, 8];
 
@@ -293,6 +308,7 @@ impl Default for MethodSettings {
             name: MethodName::NnOmni,
             cull: Cull::Auto,
             mark: Mark::Auto,
+            depth: DepthFormat::D32,
             exit_lookahead: true,
             block_first: false,
             cell: 1,
