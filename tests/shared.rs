@@ -78,7 +78,7 @@ fn bundle() -> Layout {
 }
 
 fn piece() -> Layout {
-    layout!(Piece { rgba, change, begin, inverse_length, unused })
+    layout!(Piece { rgba, change, begin, inverse_length, clear, clear_change })
 }
 
 fn axis_piece() -> Layout {

@@ -21,12 +21,12 @@ float exp_minus_1(float x) {
     return x * series;
 }
 
-// 1 - (1 - alpha)^exponent: opacity of a segment `exponent` reference lengths long.
-float corrected_opacity(float alpha, float exponent) {
-    if (alpha >= 1.0) {
+// 1 - (1 - alpha)^exponent: opacity of a segment `exponent` reference lengths long; `clear` is 1 - alpha.
+float corrected_opacity(float alpha, float clear, float exponent) {
+    if (clear <= 0.0) {
         return exponent > 0.0 ? 1.0 : 0.0;
     }
-    float optical_depth = -exponent * (alpha <= 0.5 ? log_1_plus(-alpha) : log(1.0 - alpha));
+    float optical_depth = -exponent * (alpha <= 0.5 ? log_1_plus(-alpha) : log(clear));
     return optical_depth <= 0.5 ? -exp_minus_1(-optical_depth) : 1.0 - exp(-optical_depth);
 }
 

@@ -52,6 +52,6 @@ vec4 part_of(vec4 whole, float steps) {
     if (steps == 1.0 || whole.a <= 0.0) {
         return whole;
     }
-    float alpha = CORRECT_OPACITY ? corrected_opacity(whole.a, steps) : whole.a * steps;
+    float alpha = CORRECT_OPACITY ? corrected_opacity(whole.a, 1.0 - whole.a, steps) : whole.a * steps;
     return vec4(whole.rgb * (alpha / whole.a), alpha);
 }

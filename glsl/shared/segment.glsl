@@ -34,9 +34,10 @@ vec4 shade_sample(Ray ray, uint i) {
     if (in_hole(ray, i)) {
         return vec4(0.0);
     }
-    vec4 color = classify(sample_volume(ray, steps_to(i)));
+    float clear;
+    vec4 color = classify(sample_volume(ray, steps_to(i)), clear);
     float steps = extent_of_sample(ray, i);
-    color.a = CORRECT_OPACITY ? corrected_opacity(color.a, frame.exponent * steps) : min(color.a * steps, 1.0);
+    color.a = CORRECT_OPACITY ? corrected_opacity(color.a, clear, frame.exponent * steps) : min(color.a * steps, 1.0);
     return vec4(color.rgb * color.a, color.a);
 }
 

@@ -87,7 +87,8 @@ pub struct Piece {
     pub change: [f32; 4],
     pub begin: f32,
     pub inverse_length: f32,
-    pub unused: [f32; 2],
+    pub clear: f32,
+    pub clear_change: f32,
 }
 
 /// The pieces of a transfer function whose knots are in units of the volume texture; the last one is endless.
@@ -102,13 +103,14 @@ pub fn pieces(transfer: &TransferFunction) -> Vec<Piece> {
             let (begin, next) = (knots[i].x as f32, knots.get(i + 1).map(|k| k.x as f32));
             // A piece shorter than f32 can tell is a jump; the search never stops at it.
             let length = next.map_or(0.0, |next| next - begin);
-            let (inverse_length, change) = if length > 0.0 {
+            let clear = |i: usize| (1.0 - knots[i].opacity) as f32;
+            let (inverse_length, change, clear_change) = if length > 0.0 {
                 let (a, b) = (rgba(i), rgba(i + 1));
-                (1.0 / length, std::array::from_fn(|c| b[c] - a[c]))
+                (1.0 / length, std::array::from_fn(|c| b[c] - a[c]), clear(i + 1) - clear(i))
             } else {
-                (0.0, [0.0; 4])
+                (0.0, [0.0; 4], 0.0)
             };
-            Piece { rgba: rgba(i), change, begin, inverse_length, unused: [0.0; 2] }
+            Piece { rgba: rgba(i), change, begin, inverse_length, clear: clear(i), clear_change }
         })
         .collect()
 }

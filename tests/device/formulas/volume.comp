@@ -17,7 +17,8 @@ void main() {
     vec3 voxel = a.xyz * frame.dims.xyz - 0.5;
     Place place = Place(floor(voxel), voxel - floor(voxel));
     results.values[3 * i] = vec4(cell_of(place), sample_exact(place));
-    results.values[3 * i + 1] = classify(a.w);
+    float clear;
+    results.values[3 * i + 1] = classify(a.w, clear);
     ivec2 codes = range_codes(a.xw);
     results.values[3 * i + 2] = vec4(codes, block_count(ivec3(frame.dims.xyz)).xy);
 }
