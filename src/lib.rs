@@ -26,6 +26,7 @@ pub mod read;
 pub mod reference;
 pub mod scene;
 pub mod shared;
+pub mod stability;
 pub mod structure;
 pub mod vulkan;
 

@@ -10,6 +10,7 @@ mod plan;
 mod probe;
 mod render;
 mod reproduce;
+mod stability;
 
 use std::process::ExitCode;
 
@@ -38,6 +39,7 @@ const EXAMPLES: &str = "Examples:
   depthleap reproduce --data volumes -o out              the papers' tables, theirs beside ours
   depthleap probe -o out                                 what this driver culls before shading
   depthleap accuracy builtin:gaussian:64 -o out          error against run time
+  depthleap stability -o out                             stiff and extreme cases
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -70,6 +72,7 @@ enum Command {
     Reproduce(Box<reproduce::Reproduce>),
     Probe(Box<probe::Probe>),
     Accuracy(Box<accuracy::Accuracy>),
+    Stability(Box<stability::Stability>),
     Plan(Box<plan::Plan>),
     Info(info::Info),
 }
@@ -83,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(command) => command.run(),
         Command::Probe(command) => command.run(),
         Command::Accuracy(command) => command.run(),
+        Command::Stability(command) => command.run(),
         Command::Plan(command) => command.run(),
         Command::Info(command) => command.run(),
     };

@@ -92,6 +92,12 @@ impl Resident {
         self.distances.forget_transfer();
     }
 
+    /// Forgets the scene; pipelines stay, which the next one may draw with too.
+    pub fn forget_scene(&mut self) {
+        let pipelines = std::mem::replace(&mut self.pipelines, Pipelines::new(&self.device));
+        *self = Self { pipelines, ..Self::new(&self.device) };
+    }
+
     /// Begins to build distances on the device; see [`super::Background`].
     ///
     /// # Errors

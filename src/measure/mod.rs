@@ -27,6 +27,7 @@ pub mod report;
 pub mod reproduce;
 pub mod runner;
 pub mod saving;
+pub mod stability;
 pub mod statistics;
 pub mod table;
 pub mod timing;

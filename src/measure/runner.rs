@@ -346,7 +346,7 @@ pub(super) fn no_device() -> Error {
 }
 
 /// A form that the device has not is refused; one that it does wrongly is run and named.
-fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
+pub(super) fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
     let missing = form.and_then(|form| match checked.check.forms.get(&form) {
         Some(Verdict::Missing(what)) => Some((form, what)),
         None if form.cull == Cull::Bounds && !checked.device.info.depth_bounds => {

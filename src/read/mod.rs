@@ -17,7 +17,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use raw::RawLayout;
-pub use scene::{check, scene, settings, settings_from_json};
+pub use scene::{check, scene, scene_of, settings, settings_from_json};
 pub use transfer::transfer;
 
 use crate::error::{Error, Result};

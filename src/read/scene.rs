@@ -99,11 +99,19 @@ fn picked(path: &Path) -> (PathBuf, Option<usize>) {
 /// # Errors
 /// When a value lies outside its range, settings contradict each other, or a file is wrong.
 pub fn scene(settings: &Settings) -> Result<Scene> {
+    scene_of(settings, |settings| volume(&settings.volume))
+}
+
+/// The same with a volume from elsewhere.
+///
+/// # Errors
+/// As [`scene`].
+pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Volume>) -> Result<Scene> {
     check(settings)?;
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
-    let field = Field::new(volume(&settings.volume)?, settings.volume.range, settings.volume.nan)?;
+    let field = Field::new(volume(settings)?, settings.volume.range, settings.volume.nan)?;
     Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera })
 }
 

@@ -9,7 +9,7 @@ use crate::measure::number::{milliseconds, thousands};
 pub(super) const HEAD: [&str; 7] = ["step", "largest error", "rmse", "PSNR / dB", "SSIM", "time / ms", "samples"];
 
 /// `1.2e-3`, or `-` where there is no number.
-pub(super) fn error(value: Option<f64>) -> String {
+pub fn error(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), |e| if e == 0.0 { "0".to_owned() } else { format!("{e:.1e}") })
 }
 

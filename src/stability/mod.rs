@@ -1,0 +1,15 @@
+//! Stiff and extreme scenes, each with the picture it must give: from a closed form, the exact integral or the same sum in
+//! f64. See [`battery`] and [`judge`].
+
+mod battery;
+mod depth;
+pub mod judge;
+mod optical;
+mod sampling;
+mod transfer;
+mod traps;
+mod values;
+mod views;
+
+pub use battery::{Case, Expect, Tolerance, battery};
+pub use judge::{Integrator, Outcome, Rendered, Verdict, judge};
