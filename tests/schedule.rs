@@ -195,7 +195,9 @@ fn last_marks_of_a_frame_that_nobody_copies_are_not_stored() {
     // The last step gone that uses them, and with it the reason to keep them.
     let case = cases().into_iter().find(|case| case.name == "nn-omni_ztest_copy").unwrap();
     let last = case.plan.steps.iter().rposition(|step| step.name.starts_with("mark_copy")).unwrap();
-    let scheduled = schedule(&case.plan.steps[..last], |resource| target_format(resource, Formats { accumulate: Accumulate::Rgba8, ..Formats::default() }));
+    let scheduled = schedule(&case.plan.steps[..last], |resource| {
+        target_format(resource, Formats { accumulate: Accumulate::Rgba8, ..Formats::default() })
+    });
     let pass = scheduled.last().unwrap().render_pass.as_ref().unwrap();
     let marks = pass.attachments.iter().find(|attachment| attachment.name == "marks").unwrap();
     assert_eq!(marks.store, vk::AttachmentStoreOp::DONT_CARE);

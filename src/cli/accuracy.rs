@@ -170,8 +170,7 @@ impl Way {
                     for accumulate in [Accumulate::Rgba32f, Accumulate::Rgba16f, Accumulate::Rgba8] {
                         for texture in [VolumeTexture::Native, VolumeTexture::R16, VolumeTexture::R32f] {
                             for filter in [Filter::Hardware, Filter::Exact] {
-                                let way =
-                                    Self { classification, offset, last, alpha, accumulate, texture, filter };
+                                let way = Self { classification, offset, last, alpha, accumulate, texture, filter };
                                 ways.extend((way != own).then_some(way));
                             }
                         }

@@ -10,7 +10,8 @@ use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
 use crate::scene::settings::{
-    Accumulate, Alpha, Builder, Classification, Cull, DepthFormat, Filter, Last, Mark, MethodName, Offset, Settings, TransferSettings, VolumeTexture,
+    Accumulate, Alpha, Builder, Classification, Cull, DepthFormat, Filter, Last, Mark, MethodName, Offset, Settings,
+    TransferSettings, VolumeTexture,
 };
 use crate::scene::transfer::PRESETS;
 use crate::scene::volume::VoxelType;

@@ -106,8 +106,7 @@ impl Table {
             };
             rgba.map(|c| c as f32)
         };
-        let texels =
-            nodes.par_iter().flat_map_iter(|back| nodes.iter().map(move |front| texel(front, back))).collect();
+        let texels = nodes.par_iter().flat_map_iter(|back| nodes.iter().map(move |front| texel(front, back))).collect();
         Self { pieces, nodes: nodes.len(), texels }
     }
 

@@ -48,11 +48,8 @@ pub struct Tolerance {
 }
 
 /// Some hundred samples, each rounded to f32 a few times.
-pub const ROUNDING: Tolerance = Tolerance {
-    absolute: 1e-7,
-    relative: 5e-5,
-    reason: "some hundred roundings to f32, and those of a ray's length",
-};
+pub const ROUNDING: Tolerance =
+    Tolerance { absolute: 1e-7, relative: 5e-5, reason: "some hundred roundings to f32, and those of a ray's length" };
 
 /// What the samples give is a matter of their sum alone.
 pub const SAME_SUM: Tolerance =

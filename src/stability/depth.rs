@@ -10,7 +10,8 @@ const GROUP: &str = "depth buffer";
 const METHODS: [MethodName; 2] = [MethodName::NnOmni, MethodName::NnOmniFused];
 
 /// Thousands of passes, each of which rounds what is there.
-const MANY: Tolerance = Tolerance { absolute: 1e-6, relative: 1e-3, reason: "thousands of passes, each rounded to f32" };
+const MANY: Tolerance =
+    Tolerance { absolute: 1e-6, relative: 1e-3, reason: "thousands of passes, each rounded to f32" };
 
 pub fn cases() -> Vec<Case> {
     let most = most_sections(DepthFormat::D16);
@@ -22,7 +23,8 @@ pub fn cases() -> Vec<Case> {
                 (s.camera.eye, s.camera.fov_y) = ([0.0, 0.0, 3.0], 1.0);
                 (s.image.size, s.sampling.samples_per_pass) = ([3, 3], 1);
                 (s.sampling.passes, s.sampling.step) = (passes, length / f64::from(passes) * (1.0 - 1e-4));
-                s.method.depth = format;
+                // Some drivers compile a shader for each bound of the depth bounds test, which takes them minutes here.
+                (s.method.depth, s.method.cull, s.method.mark) = (format, Cull::Ztest, Mark::Copy);
             })
             .by(&METHODS)
     };

@@ -115,7 +115,8 @@ pub fn judge(case: &Case, methods: &[MethodName], integrator: &mut dyn Integrato
                     let bits = |pixels: &[[f64; 4]]| pixels.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
                     if bits(pixels) != bits(&rendered.pixels) {
                         outcome.verdict = Verdict::Wrong;
-                        outcome.remark = Some(format!("skipping changes the picture: it is not that of {}", first.name()));
+                        outcome.remark =
+                            Some(format!("skipping changes the picture: it is not that of {}", first.name()));
                     }
                 }
                 outcome

@@ -24,13 +24,16 @@ const ENDING: [MethodName; 10] = [
 const MANY: Tolerance = Tolerance { absolute: 1e-6, relative: 3e-4, reason: "thousands of roundings to f32" };
 
 pub fn cases() -> Vec<Case> {
-    let medium = |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(GROUP, name, "constant:24", 0.03).with(change);
+    let medium =
+        |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(GROUP, name, "constant:24", 0.03).with(change);
     let beer = |opacity: f64, steps: f64| Expect::Beer { color: COLOR, opacity, steps: Some(steps) };
     let shown = |alpha: f64| Expect::Constant([COLOR[0] * alpha, COLOR[1] * alpha, COLOR[2] * alpha, alpha]);
     // Head-on, every ray is a voxel short of thirty long at the least.
     let ended = |name: &str, opacity: f64, threshold: f64, samples: f64| {
         Case::medium(GROUP, name, "constant:24", opacity)
-            .with(|s| (s.camera.eye, s.sampling.termination, s.sampling.samples_per_pass) = ([0.0, 0.0, 1.91], threshold, 1))
+            .with(|s| {
+                (s.camera.eye, s.sampling.termination, s.sampling.samples_per_pass) = ([0.0, 0.0, 1.91], threshold, 1)
+            })
             .with(|s| s.camera.fov_y = 10.0)
             .expect(beer(opacity, samples), ROUNDING)
             .by(&ENDING)

@@ -19,9 +19,8 @@ pub fn cases() -> Vec<Case> {
     let peak = [[0.5, r, g, b, 0.0], [0.5002, r, g, b, 0.999], [0.5004, r, g, b, 0.0]];
     // Seen along x, so that every step goes through the whole peak: the corner where both of a step's values lie beside it
     // is what a table knows least of.
-    let narrow = |name: &str| {
-        Case::new(GROUP, name, "linear:24").points(&peak).with(|s| s.camera.eye = [1.9, 0.13, 0.21])
-    };
+    let narrow =
+        |name: &str| Case::new(GROUP, name, "linear:24").points(&peak).with(|s| s.camera.eye = [1.9, 0.13, 0.21]);
     let integrated = |case: Case| {
         case.with(|s| s.sampling.classification = Classification::PreIntegrated).expect(Expect::Exact, TABLE)
     };
@@ -51,7 +50,9 @@ pub fn cases() -> Vec<Case> {
             [0.5, r, g, b, 1.0],
             [0.6, r, g, b, 0.0],
         ]),
-        Case::new(GROUP, "points out of order", "linear:24").points(&[high, low]).expect(Expect::Refused("sort"), SAME_SUM),
+        Case::new(GROUP, "points out of order", "linear:24")
+            .points(&[high, low])
+            .expect(Expect::Refused("sort"), SAME_SUM),
         Case::new(GROUP, "an opacity above 1", "linear:24")
             .points(&[[0.5, r, g, b, 1.5]])
             .expect(Expect::Refused("opacity from 0 to 1"), SAME_SUM),

@@ -19,7 +19,11 @@ pub fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     let mut put = |name: &str, volume: Option<Volume>, change: &dyn Fn(&mut Settings)| {
         cases.extend(volume.map(|volume| {
-            Case::new(GROUP, name, "").preset("ramp").voxels(volume).with(|s| s.sampling.termination = 0.95).with(change)
+            Case::new(GROUP, name, "")
+                .preset("ramp")
+                .voxels(volume)
+                .with(|s| s.sampling.termination = 0.95)
+                .with(change)
         }));
     };
     let single = |at: [usize; 3]| move |voxel: [usize; 3]| voxel == at;

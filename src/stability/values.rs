@@ -31,7 +31,8 @@ fn doubles(value: impl Fn(usize) -> f64) -> Option<Volume> {
 pub fn cases() -> Vec<Case> {
     let [r, g, b] = COLOR;
     let points = [[0.1, r, g, b, 0.0], [0.5, g, b, r, 0.05], [1.0, b, r, g, 0.4]];
-    let case = |name: &str, volume: Option<Volume>| volume.map(|v| Case::new(GROUP, name, "").points(&points).voxels(v));
+    let case =
+        |name: &str, volume: Option<Volume>| volume.map(|v| Case::new(GROUP, name, "").points(&points).voxels(v));
     let broken = |i: usize| match i % 31 {
         3 => f64::NAN,
         11 => f64::INFINITY,
@@ -50,8 +51,8 @@ pub fn cases() -> Vec<Case> {
     let signed: Vec<i16> = (0..SIDE.pow(3)).map(|i| (pattern(i) * 65535.0 - 32768.0) as i16).collect();
     let unsigned: Vec<u16> = (0..SIDE.pow(3)).map(|i| 1000 + (pattern(i) * 7.0) as u16).collect();
     let bytes: Vec<i8> = (0..SIDE.pow(3)).map(|i| (pattern(i) * 255.0 - 128.0) as i8).collect();
-    let quantised = case("values in 16 bits", floats(pattern))
-        .map(|case| case.with(|s| s.volume.texture = VolumeTexture::R16));
+    let quantised =
+        case("values in 16 bits", floats(pattern)).map(|case| case.with(|s| s.volume.texture = VolumeTexture::R16));
     [
         case("NaN and infinities, replaced", floats(broken))
             .zip(replaced)

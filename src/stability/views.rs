@@ -34,8 +34,11 @@ const GRAZING: Tolerance = Tolerance {
 };
 
 /// From far away a pixel's ray is known to f32's digits of the distance alone, were it not for double-floats.
-const FAR: Tolerance =
-    Tolerance { absolute: 1e-6, relative: 5e-4, reason: "the eye is thousands of volumes away: double-floats keep 48 bits" };
+const FAR: Tolerance = Tolerance {
+    absolute: 1e-6,
+    relative: 5e-4,
+    reason: "the eye is thousands of volumes away: double-floats keep 48 bits",
+};
 
 pub fn cases() -> Vec<Case> {
     let shapes = [
@@ -48,11 +51,10 @@ pub fn cases() -> Vec<Case> {
         ("spacing 1:1:2000", [6, 6, 6], [1.0, 1.0, 2000.0]),
         ("spacing 2000:2000:1", [6, 6, 6], [2000.0, 2000.0, 1.0]),
     ];
-    let mut cases: Vec<Case> = shapes.into_iter().filter_map(|(name, dims, spacing)| solid(name, dims, spacing)).collect();
+    let mut cases: Vec<Case> =
+        shapes.into_iter().filter_map(|(name, dims, spacing)| solid(name, dims, spacing)).collect();
     let view = |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(VIEW, name, "constant:24", 0.03).with(change);
-    let eye = |eye: [f64; 3], target: [f64; 3]| {
-        move |s: &mut Settings| (s.camera.eye, s.camera.target) = (eye, target)
-    };
+    let eye = |eye: [f64; 3], target: [f64; 3]| move |s: &mut Settings| (s.camera.eye, s.camera.target) = (eye, target);
     let along = |case: Case| {
         let (expect, _) = (Expect::Beer { color: super::battery::COLOR, opacity: 0.03, steps: None }, ());
         case.expect(expect, GRAZING)
@@ -85,7 +87,8 @@ pub fn cases() -> Vec<Case> {
         view("one pixel", &|s| s.image.size = [1, 1]),
         view("1x64 pixels", &|s| s.image.size = [1, 64]),
         view("64x1 pixels", &|s| (s.image.size, s.camera.fov_y) = ([64, 1], 1.0)),
-        view("no camera: the eye is where it looks", &eye([0.3; 3], [0.3; 3])).expect(Expect::Refused("target"), ROUNDING),
+        view("no camera: the eye is where it looks", &eye([0.3; 3], [0.3; 3]))
+            .expect(Expect::Refused("target"), ROUNDING),
     ]);
     cases
 }

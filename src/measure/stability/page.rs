@@ -57,10 +57,12 @@ pub fn page(found: &Stability) -> String {
             page.raw("</tr>\n");
         }
         page.raw("</tbody></table></div>\n");
-        let wrong: Vec<String> =
-            found.cases.iter().filter(|case| case.group == group).flat_map(|case| {
-                faults(case).into_iter().map(move |fault| format!("{}, {fault}", case.name))
-            }).collect();
+        let wrong: Vec<String> = found
+            .cases
+            .iter()
+            .filter(|case| case.group == group)
+            .flat_map(|case| faults(case).into_iter().map(move |fault| format!("{}, {fault}", case.name)))
+            .collect();
         if !wrong.is_empty() {
             page.raw("<ul>\n");
             wrong.iter().for_each(|fault| page.tag("li", fault));
@@ -82,5 +84,9 @@ fn cell(outcome: &Outcome) -> String {
         (verdict, _) => word(verdict).to_owned(),
     };
     let title = outcome.remark.clone().unwrap_or_else(|| share(outcome.share));
-    format!("<td class=\"number\" style=\"background:hsl({hue});color:#000\" title=\"{}\">{}</td>", escape(&title), escape(&text))
+    format!(
+        "<td class=\"number\" style=\"background:hsl({hue});color:#000\" title=\"{}\">{}</td>",
+        escape(&title),
+        escape(&text)
+    )
 }

@@ -1,9 +1,9 @@
 //! The command line on a device: pictures, counts, benches, and what a device refuses.
 
 mod accuracy;
-mod extremes;
 #[path = "../../cli/program.rs"]
 pub mod program;
+mod stability;
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ pub fn tests() -> Vec<Test> {
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     tests.extend(accuracy::tests());
-    tests.extend(extremes::tests());
+    tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
 }
 

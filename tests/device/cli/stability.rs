@@ -1,0 +1,56 @@
+//! `depthleap stability`: every case is right by every method on the device under test.
+
+use std::sync::Arc;
+
+use depthleap::measure::stability::Stability;
+use depthleap::scene::settings::MethodName;
+use depthleap::stability::{Verdict, battery};
+use depthleap::vulkan::Device;
+
+use super::program::Place;
+use crate::harness::{Test, test};
+
+pub fn tests() -> Vec<Test> {
+    vec![
+        test("stability: every case is right", every_case),
+        test("stability runs what is asked for, validated", validated),
+        test("stability refuses what it does not know", refused),
+    ]
+}
+
+fn read(place: &Place) -> Stability {
+    serde_json::from_slice(&place.read("out/stability.json")).unwrap()
+}
+
+fn every_case(device: &Arc<Device>) {
+    let place = Place::new();
+    let said = place.done("stability -o out").text();
+    let found = read(&place);
+    assert_eq!(found.device, device.info.name);
+    let names: Vec<(String, String)> = battery().iter().map(|c| (c.group.to_owned(), c.name.clone())).collect();
+    assert_eq!(found.cases.iter().map(|c| (c.group.clone(), c.name.clone())).collect::<Vec<_>>(), names);
+    for (case, asked) in found.cases.iter().zip(battery()) {
+        let methods = if asked.methods.is_empty() { MethodName::ALL.len() } else { asked.methods.len() };
+        assert_eq!(case.outcomes.len(), methods, "{}", case.name);
+        assert!(case.outcomes.iter().all(|o| o.verdict != Verdict::Wrong), "{}: {:?}", case.name, case.outcomes);
+    }
+    // A device may lack the depth bounds test, and a depth buffer of 24 bits.
+    let missing = found.count(Verdict::Missing);
+    println!("{}", found.summary());
+    assert!(missing <= 7 && said.contains(&found.summary()), "{missing} cases were not run");
+    let page = String::from_utf8(place.read("out/stability.html")).unwrap();
+    assert!(page.contains("one voxel at the far corner") && page.contains(&found.summary()));
+}
+
+fn validated(_: &Arc<Device>) {
+    let place = Place::new();
+    place.done("stability --case d16 --method nn-omni,nn-omni+fused --validate -o out");
+    assert!(read(&place).cases.iter().all(|case| case.name.contains("d16")));
+}
+
+fn refused(_: &Arc<Device>) {
+    let place = Place::new();
+    place.refused("stability --case nonsense -o out", 2, &["nonsense", "--list"]);
+    place.refused("stability", 2, &["--output"]);
+    assert!(place.done("stability --list").text().contains("skip trap: one voxel"));
+}
