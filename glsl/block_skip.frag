@@ -9,6 +9,7 @@
 //@variant fragdepth MARK_FRAGDEPTH
 //@variant fragdepth-any MARK_FRAGDEPTH_ANY
 //@variant copy MARK_COPY
+//@also endless ENDLESS
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -16,7 +17,9 @@
 #include "shared/samples.glsl"
 #include "shared/block.glsl"
 
+#ifndef ENDLESS
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#endif
 layout(set = 0, binding = 8, std430) readonly buffer CellRange {
     vec2 ranges[];
 } cell_range;
@@ -77,7 +80,11 @@ void main() {
     Ray ray = load_ray();
     uint first = this_step.pass * SAMPLES_PER_PASS;
     uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+#ifdef ENDLESS
+    bool saturated = false;
+#else
     bool saturated = texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination;
+#endif
     if (first >= end || saturated) {
         MARK(DEAD);
     } else {

@@ -13,9 +13,9 @@ layout(set = 0, binding = 1) uniform sampler2D entry;
 layout(location = 0) out vec4 direction;
 
 void main() {
-    vec2 pixel = gl_FragCoord.xy;
+    vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
     Interval interval = box_interval(pixel);
-    vec3 begin = texelFetch(entry, ivec2(pixel), 0).xyz;
+    vec3 begin = texelFetch(entry, ivec2(gl_FragCoord.xy), 0).xyz;
     vec2 way[3];
     vec2 square = vec2(0.0);
     for (int axis = 0; axis < 3; ++axis) {

@@ -13,7 +13,7 @@
 layout(location = 0) out vec4 entry;
 
 void main() {
-    vec2 pixel = gl_FragCoord.xy;
+    vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
     Interval interval = box_interval(pixel);
     for (int axis = 0; axis < 3; ++axis) {
         vec2 coordinate = texture_coordinate(pixel, interval.enter, axis, interval.enter_axis, false);

@@ -32,6 +32,8 @@
 //@variant last+discard MARK_NONE CULL_DISCARD
 //@variant last+discard+holes MARK_NONE CULL_DISCARD HOLES
 //@variant last+discard+preintegrated MARK_NONE CULL_DISCARD PREINTEGRATED
+//@also dense DENSE
+//@also endless ENDLESS
 
 // RES comes first.
 #define MARK_LOCATION 1
@@ -52,26 +54,40 @@
 #endif
 #include "shared/segment.glsl"
 
+#ifndef ENDLESS
 layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
 
 // More than the blend unit may take from an opacity (BLEND_ROUNDING in src/reference/fused.rs).
 layout(constant_id = 10) const float BLEND_ROUNDING = 0.0;
+#endif
 
 layout(location = 0) out vec4 contribution;
+
+// The opacity before this pass, and with a segment added; of no matter where no ray of the view can come above T.
+#ifdef ENDLESS
+#define alive_before() true
+#define saturated_by(segment) false
+#else
+bool alive_before() {
+    return subpassLoad(accumulated).a <= frame.termination;
+}
+
+bool saturated_by(vec4 segment) {
+    return composite(subpassLoad(accumulated), segment).a > frame.termination + BLEND_ROUNDING;
+}
+#endif
 
 void main() {
     float depth = DEAD;
     vec4 segment = vec4(0.0);
     bool runs = may_run();
     if (runs) {
-        vec4 before = subpassLoad(accumulated);
-        if (before.a <= frame.termination) {
+        if (alive_before()) {
             Ray ray = load_ray();
             uint next = next_section(ray, this_step.pass);
             if (next == this_step.pass) {
                 segment = segment_color(ray, this_step.pass);
-                bool saturated = composite(before, segment).a > frame.termination + BLEND_ROUNDING;
-                next = saturated ? frame.passes : next_section(ray, this_step.pass + 1u);
+                next = saturated_by(segment) ? frame.passes : next_section(ray, this_step.pass + 1u);
             }
             // Always ahead, so that depths rise.
             depth = decision_depth(next, false);

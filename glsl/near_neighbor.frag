@@ -11,6 +11,8 @@
 //@variant fragdepth-any MARK_FRAGDEPTH_ANY
 //@variant copy MARK_COPY
 //@variant copy+discard MARK_COPY CULL_DISCARD
+//@also dense DENSE
+//@also endless ENDLESS
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
@@ -20,12 +22,16 @@
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"
 
+#ifndef ENDLESS
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#endif
 
 float decide(Ray ray) {
+#ifndef ENDLESS
     if (texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination) {
         return DEAD;
     }
+#endif
     uint next = next_section(ray, this_step.pass);
     return decision_depth(next, next == this_step.pass);
 }

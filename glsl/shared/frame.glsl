@@ -32,6 +32,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     float step_voxels;
     // N, main passes of this frame.
     uint passes;
+    // The first pixel of the targets in the picture: they are as large as what the box may cover.
+    uint first_column;
+    uint first_row;
 } frame;
 
 layout(push_constant) uniform Step {

@@ -6,6 +6,13 @@
 // the first that may show something is a step beyond the last of them. 3. EXIT_LOOKAHEAD: a ray that has no sample left
 // by then is dead at once. 4. LOOKUPS: a ray whose next work would lie in the same segment may look again from there.
 
+// DENSE: every cell is interesting, there is no structure, and a ray has work wherever it has samples.
+
+#ifdef DENSE
+uint next_section(Ray ray, uint section) {
+    return section * SAMPLES_PER_PASS < ray.samples ? section : frame.passes;
+}
+#else
 // Of each cell a byte, or eight bytes in two words, one for each octant: 0 where the cell is interesting, else one more
 // than the voxels of the finest spacing that a ray may go from anywhere in the cell.
 layout(set = 0, binding = 10) uniform usampler3D nearest_distance;
@@ -64,6 +71,7 @@ uint next_section(Ray ray, uint section) {
     bool gone = EXIT_LOOKAHEAD && i >= ray.samples;
     return gone ? frame.passes : min(i / SAMPLES_PER_PASS, frame.passes);
 }
+#endif
 
 // The depth that says so; `arrived` when it is the section of the pass that marks.
 float decision_depth(uint next, bool arrived) {

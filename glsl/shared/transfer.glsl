@@ -13,25 +13,40 @@ struct Piece {
     float clear_change;
 };
 
+// Of each piece (begin, inverse_length, clear, clear_change), then rgba and change, or both of grey and opacity in one.
 layout(set = 0, binding = 5, std430) readonly buffer Transfer {
-    Piece pieces[];
+    vec4 rows[];
 } transfer;
 
 // Pieces of the transfer function, the endless last one included.
 layout(constant_id = 2) const int PIECES = 1;
 // The first power of two that is not below PIECES, halved: where the search begins.
 layout(constant_id = 3) const int SEARCH = 0;
+// Red, green and blue are alike.
+layout(constant_id = 14) const bool GREY = false;
+
+// Rows of a piece.
+const int ROWS = GREY ? 2 : 3;
+
+Piece piece_at(int at) {
+    vec4 place = transfer.rows[at * ROWS];
+    vec4 first = transfer.rows[at * ROWS + 1];
+    vec4 rgba = GREY ? first.xxxy : first;
+    vec4 change = GREY ? first.zzzw : transfer.rows[at * ROWS + 2];
+    return Piece(rgba, change, place.x, place.y, place.z, place.w);
+}
 
 // Not premultiplied colour and opacity of a scalar value, and `clear`, 1 - opacity. At a jump the later point counts;
 // clamped outside.
 vec4 classify(float value, out float clear) {
     int at = 0;
     for (int width = SEARCH; width > 0; width >>= 1) {
-        if (at + width < PIECES && value >= transfer.pieces[at + width].begin) {
+        if (at + width < PIECES && value >= transfer.rows[(at + width) * ROWS].x) {
             at += width;
         }
     }
-    float weight = max(value - transfer.pieces[at].begin, 0.0) * transfer.pieces[at].inverse_length;
-    clear = fma(weight, transfer.pieces[at].clear_change, transfer.pieces[at].clear);
-    return fma(vec4(weight), transfer.pieces[at].change, transfer.pieces[at].rgba);
+    Piece piece = piece_at(at);
+    float weight = max(value - piece.begin, 0.0) * piece.inverse_length;
+    clear = fma(weight, piece.clear_change, piece.clear);
+    return fma(vec4(weight), piece.change, piece.rgba);
 }

@@ -126,6 +126,9 @@ pub struct MethodOptions {
     /// nn-*: notice that a ray has left the volume only on arrival, as the papers do
     #[arg(long)]
     no_exit_lookahead: bool,
+    /// Leave nothing out that the method may have, whether the scene needs it or not: the planner's savings
+    #[arg(long)]
+    no_planner: bool,
     /// rc-block: test for empty blocks before the first main pass too
     #[arg(long)]
     pub block_first: bool,
@@ -234,6 +237,7 @@ impl MethodOptions {
         method.mark = self.mark.unwrap_or(method.mark);
         method.depth = self.depth.unwrap_or(method.depth);
         method.exit_lookahead &= !self.no_exit_lookahead;
+        method.planner &= !self.no_planner;
         method.block_first |= self.block_first;
         method.cell = self.cell.unwrap_or(method.cell);
         method.cone = self.cone.unwrap_or(method.cone);

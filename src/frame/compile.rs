@@ -177,7 +177,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             "use --depth-format d32 or d16, which every device has",
         ));
     }
-    let [width, height] = plan.view.size;
+    let Region { width, height, .. } = plan.view.region;
     usages
         .into_iter()
         .map(|(resource, usage)| {
@@ -195,7 +195,8 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
 }
 
 fn frame_buffer(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<Buffer> {
-    let frame = shared::Frame::new(scene, &plan.view.rays, plan.passes);
+    let region = plan.view.region;
+    let frame = shared::Frame::new(scene, &plan.view.rays, plan.passes, [region.x, region.y]);
     let buffer = Buffer::new(
         device,
         BufferInfo {
@@ -263,7 +264,8 @@ impl Compiler<'_> {
             return Ok(known.clone());
         }
         let images: Vec<&Image> = targets.iter().map(|t| &self.targets[t]).collect();
-        let made = Arc::new(Framebuffer::new(self.device, &pass.info.name, pass, &images, self.plan.view.size)?);
+        let made =
+            Arc::new(Framebuffer::new(self.device, &pass.info.name, pass, &images, self.plan.view.region.size())?);
         self.framebuffers.insert(key, made.clone());
         Ok(made)
     }

@@ -366,7 +366,8 @@ impl GpuFrame {
         let [width, height] = self.size.map(|n| n as usize);
         let mut pixels = vec![[0.0f32; 4]; width * height];
         let Some(image) = self.compiled.targets.get(&Resource::Accumulated) else { return Ok(pixels) };
-        let (texels, format) = super::upload::read_back(&self.device, image, self.texels(), self.accumulated_layout)?;
+        let (texels, format) =
+            super::upload::read_back(&self.device, image, Region::whole(image), self.accumulated_layout)?;
         self.accumulated_layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let region = self.compiled.region;
         let decoded = super::upload::decode_rgba(&texels, format);
@@ -378,20 +379,20 @@ impl GpuFrame {
     }
 
     fn area(&self) -> vk::Rect2D {
-        let r = self.compiled.region;
-        vk::Rect2D {
-            offset: vk::Offset2D { x: r.x as i32, y: r.y as i32 },
-            extent: vk::Extent2D { width: r.width, height: r.height },
-        }
+        let [width, height] = self.compiled.region.size();
+        vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
     }
 
     fn texels(&self) -> Region {
-        let r = self.compiled.region;
-        Region { buffer_offset: 0, image_offset: [r.x, r.y, 0], extent: [r.width, r.height, 1], row: 0 }
+        let [width, height] = self.compiled.region.size();
+        Region { buffer_offset: 0, image_offset: [0; 3], extent: [width, height, 1], row: 0 }
     }
 
+    /// The whole picture, of which the targets are a part.
     fn full_area(&self) -> vk::Rect2D {
-        let [width, height] = self.size;
-        vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
+        let ([width, height], region) = (self.size, self.compiled.region);
+        // Sides are checked against the device's limits, far below 2^31.
+        let offset = vk::Offset2D { x: -(region.x as i32), y: -(region.y as i32) };
+        vk::Rect2D { offset, extent: vk::Extent2D { width, height } }
     }
 }

@@ -87,6 +87,7 @@ impl Resident {
     /// Forgets what depends on the transfer function: the next plan's scene may have another one.
     pub fn forget_transfer(&mut self) {
         self.buffers.remove(&Resource::Transfer);
+        self.buffers.remove(&Resource::GreyTransfer);
         self.images.remove(&Resource::BlockTable);
         self.table = None;
         self.distances.forget_transfer();
@@ -139,7 +140,9 @@ impl Resident {
     /// When the volume is larger than the device allows, or cannot be filtered there.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan, structures: &Structures) -> Result<()> {
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        for resource in [Resource::Volume, Resource::Holes, Resource::Transfer, Resource::BlockTable] {
+        for resource in
+            [Resource::Volume, Resource::Holes, Resource::Transfer, Resource::GreyTransfer, Resource::BlockTable]
+        {
             let there = self.images.contains_key(&resource) || self.buffers.contains_key(&resource);
             if reads(resource) && !there {
                 self.make(resource, scene)?;
@@ -238,9 +241,10 @@ impl Resident {
                 let image = self.upload_image(resource, field.cells(), vk::Format::R8_UINT, &holes)?;
                 self.images.insert(resource, image);
             }
-            Resource::Transfer => {
+            Resource::Transfer | Resource::GreyTransfer => {
                 let pieces = shared::pieces(&texels(scene).transfer(&scene.transfer));
-                self.upload_buffer(resource, bytemuck::cast_slice(&pieces))?;
+                let rows = shared::rows(&pieces, resource == Resource::GreyTransfer);
+                self.upload_buffer(resource, bytemuck::cast_slice(&rows))?;
             }
             Resource::BlockTable => {
                 let table = blocks::visibility_table(&texels(scene).transfer(&scene.transfer));

@@ -45,12 +45,7 @@ impl<'a> Texels<'a> {
 
     /// 16 bits over the values there are.
     fn quantised(field: &Field) -> Self {
-        let (low, high) = field
-            .values
-            .par_iter()
-            .fold(|| (f32::INFINITY, f32::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)))
-            .reduce(|| (f32::INFINITY, f32::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (low, high) = (f64::from(low), f64::from(high));
+        let [low, high] = field.extremes().map(f64::from);
         let span = if high > low { high - low } else { 1.0 };
         let code = |x: &f32| ((f64::from(*x) - low) / span * 65535.0).round() as u16;
         let codes: Vec<u16> = field.values.par_iter().map(code).collect();

@@ -8,7 +8,8 @@
 //! //@variant exact FILTER=1 COUNT
 //! ```
 //!
-//! becomes one module for each such line, with those macros defined; without such a line it is one module.
+//! becomes one module for each such line, with those macros defined; without such a line it is one module. A line
+//! `//@also NAME MACRO ...` doubles the variants above it: each is there once more, as `...+NAME`, with those macros too.
 //! Modules are named by their path from the root, `structure/cell_range.comp`, variants `main_pass.frag:counting`.
 
 use shaderc::{CompileOptions, Compiler, ResolvedInclude, ShaderKind};
@@ -73,19 +74,36 @@ pub fn variants(root: &Path, file: &str) -> Result<Vec<Module>, Broken> {
             text: format!("{}:{}:1: {problem}", root.join(file).display(), number + 1),
         };
         let mut words = rest.split_whitespace();
-        if words.next() != Some("variant") {
+        let kind = words.next();
+        if !matches!(kind, Some("variant" | "also")) {
             return Err(fault(format!("`//@{rest}` is no known line; write `//@variant NAME MACRO[=VALUE] ...`")));
         }
         let variant = words.next().ok_or_else(|| fault("this variant has no name".into()))?;
-        let name = format!("{file}:{variant}");
-        if found.iter().any(|module| module.name == name) {
+        let macros: Vec<(String, Option<String>)> = words
+            .map(|word| match word.split_once('=') {
+                Some((name, value)) => (name.to_string(), Some(value.to_string())),
+                None => (word.to_string(), None),
+            })
+            .collect();
+        let plain = Module { name: format!("{file}:{variant}"), file: file.to_string(), macros };
+        let more: Vec<Module> = match kind {
+            Some("also") => found
+                .iter()
+                .map(|above| Module {
+                    name: format!("{}+{variant}", above.name),
+                    file: file.to_string(),
+                    macros: [above.macros.as_slice(), &plain.macros].concat(),
+                })
+                .collect(),
+            _ => vec![plain],
+        };
+        if more.is_empty() {
+            return Err(fault(format!("there is no variant that `{variant}` goes with")));
+        }
+        if found.iter().any(|module| more.iter().any(|one| one.name == module.name)) {
             return Err(fault(format!("the variant `{variant}` is there twice")));
         }
-        let macros = words.map(|word| match word.split_once('=') {
-            Some((name, value)) => (name.to_string(), Some(value.to_string())),
-            None => (word.to_string(), None),
-        });
-        found.push(Module { name, file: file.to_string(), macros: macros.collect() });
+        found.extend(more);
     }
     if found.is_empty() {
         found.push(Module { name: file.to_string(), file: file.to_string(), macros: Vec::new() });

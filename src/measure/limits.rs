@@ -26,7 +26,7 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
     resources.dedup();
     let formats = scene.settings.formats();
     let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, formats)).sum();
-    let (needed, there) = (per_pixel * pixels(scene), info.memory_bytes);
+    let (needed, there) = (per_pixel * plan.view.region.pixels(), info.memory_bytes);
     if needed > there {
         return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));
     }

@@ -3,22 +3,22 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
-pub fn block_skip(scene: &Scene, pass: u32, form: cull::Form) -> Step {
+pub fn block_skip(scene: &Scene, needs: Needs, pass: u32, form: cull::Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::Accumulated),
         Usage::Sampled.of(Resource::CellRange),
         Usage::Sampled.of(Resource::BlockTable),
     ];
-    let shader = format!("block_skip.frag:{}", form.mark_variant());
+    accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
+    let shader = format!("block_skip.frag:{}", needs.variant(vec![form.mark_variant()]));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
     draw.constants.push(constants::samples(scene));
     draw.constants.push(constants::depth_bits(scene));

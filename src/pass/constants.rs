@@ -1,5 +1,6 @@
 //! Specialization constants that several passes set, by the shader header that declares them.
 
+use super::Needs;
 use super::resource::{Access, Resource, Usage};
 use crate::scene::Scene;
 use crate::scene::settings::{Alpha, Distance, Filter, Last};
@@ -13,7 +14,7 @@ pub fn samples(scene: &Scene) -> Constant {
 }
 
 /// Of `volume.glsl`, `transfer.glsl` and `segment.glsl`: what taking samples leaves out for this scene.
-pub fn segment(scene: &Scene) -> [Constant; 6] {
+pub fn segment(scene: &Scene, needs: Needs) -> [Constant; 7] {
     let sampling = &scene.settings.sampling;
     // Axes go on beyond the first knot and the last.
     let pieces = scene.transfer.knots().len() as u32 + u32::from(sampling.spans());
@@ -26,6 +27,7 @@ pub fn segment(scene: &Scene) -> [Constant; 6] {
         ("SEARCH", pieces.next_power_of_two() / 2),
         ("CORRECT_OPACITY", u32::from(corrected)),
         ("EXTRA_FETCHES", sampling.extra_fetches),
+        ("GREY", u32::from(!needs.colors)),
         ("LAST_PARTIAL", u32::from(sampling.last == Last::Partial)),
     ]
 }
@@ -53,13 +55,14 @@ pub fn spans(scene: &Scene) -> Constant {
 }
 
 /// What classifies samples: the resources, and the macros' variant that reads them.
-pub fn classification(scene: &Scene) -> (Vec<Access>, Option<&'static str>) {
+pub fn classification(scene: &Scene, needs: Needs) -> (Vec<Access>, Option<&'static str>) {
+    let transfer = if needs.colors { Resource::Transfer } else { Resource::GreyTransfer };
     let sampled = |resources: &[Resource]| resources.iter().map(|r| Usage::Sampled.of(*r)).collect();
     if scene.settings.sampling.spans() {
         return (sampled(&[Resource::Preintegrated, Resource::Axis]), Some("preintegrated"));
     }
     if scene.field.holes.is_some() {
-        return (sampled(&[Resource::Transfer, Resource::Holes]), Some("holes"));
+        return (sampled(&[transfer, Resource::Holes]), Some("holes"));
     }
-    (sampled(&[Resource::Transfer]), None)
+    (sampled(&[transfer]), None)
 }

@@ -2,7 +2,7 @@
 
 use super::cull::{self, Form};
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, constants};
+use super::{Draw, Faces, Group, Needs, Step, Work, constants};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
@@ -10,30 +10,34 @@ use crate::scene::settings::Cull;
 
 /// Main pass `pass` of `passes`, for rays whose stored section begins at or before it. The last one has nothing left to
 /// decide and marks nothing.
-pub fn fused(scene: &Scene, pass: u32, passes: u32, form: Form) -> Step {
+pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::NearestDistance),
         Usage::Sampled.of(Resource::Volume),
-        Usage::ColorInput.of(Resource::Accumulated),
     ];
+    if needs.skips {
+        accesses.push(Usage::Sampled.of(Resource::NearestDistance));
+    }
+    // Its own opacity is read where a ray may end.
+    let drawn = if needs.ends { Usage::ColorInput } else { Usage::Color };
+    accesses.push(drawn.of(Resource::Accumulated));
     let marks = (pass + 1 < passes).then_some(form.mark);
     let mut variant = vec![marks.map_or("last", |_| form.mark_variant())];
     if form.cull == Cull::Discard {
         variant.push("discard");
     }
-    let (classified, by) = constants::classification(scene);
+    let (classified, by) = constants::classification(scene, needs);
     accesses.extend(classified);
     variant.extend(by);
-    let shader = format!("fused.frag:{}", variant.join("+"));
+    let shader = format!("fused.frag:{}", needs.variant(variant));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
     draw.blend = true;
     draw.constants.push(constants::samples(scene));
     draw.constants.push(constants::depth_bits(scene));
-    draw.constants.extend(constants::segment(scene));
+    draw.constants.extend(constants::segment(scene, needs));
     draw.constants.extend(constants::near_neighbor(scene));
     let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
     draw.constants.push(("BLEND_ROUNDING", rounding.to_bits()));

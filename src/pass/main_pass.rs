@@ -1,13 +1,13 @@
 //! Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2].
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 use crate::scene::settings::Cull;
 
 /// Main pass `pass`, culled by `cull` = (how, greatest stored depth), or run for every fragment.
-pub fn main_pass(scene: &Scene, pass: u32, culled: Option<(Cull, f32)>) -> Step {
+pub fn main_pass(scene: &Scene, needs: Needs, pass: u32, culled: Option<(Cull, f32)>) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
@@ -16,7 +16,7 @@ pub fn main_pass(scene: &Scene, pass: u32, culled: Option<(Cull, f32)>) -> Step 
         Usage::Sampled.of(Resource::Volume),
         Usage::Color.of(Resource::Accumulated),
     ];
-    let (classified, by) = constants::classification(scene);
+    let (classified, by) = constants::classification(scene, needs);
     accesses.extend(classified);
     let discard = matches!(culled, Some((Cull::Discard, _))).then_some("discard");
     let variant: Vec<&str> = discard.into_iter().chain(by).collect();
@@ -24,7 +24,7 @@ pub fn main_pass(scene: &Scene, pass: u32, culled: Option<(Cull, f32)>) -> Step 
     let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
     draw.blend = true;
     draw.constants.push(constants::samples(scene));
-    draw.constants.extend(constants::segment(scene));
+    draw.constants.extend(constants::segment(scene, needs));
     if let Some((how, bound)) = culled {
         cull::cull_by_stored(&mut draw, &mut accesses, how, bound);
     }

@@ -45,6 +45,28 @@ impl Step {
     }
 }
 
+/// What a scene needs of what a method has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// A ray may end before it leaves the volume: its opacity may come above T.
+    pub ends: bool,
+    /// Some cells show nothing.
+    pub skips: bool,
+    /// The transfer function has colours.
+    pub colors: bool,
+}
+
+impl Needs {
+    pub const ALL: Self = Self { ends: true, skips: true, colors: true };
+
+    /// The variant of an intermediate shader that does no more than that.
+    pub fn variant(self, mut plain: Vec<&str>) -> String {
+        plain.extend((!self.skips).then_some("dense"));
+        plain.extend((!self.ends).then_some("endless"));
+        plain.join("+")
+    }
+}
+
 /// What a step's time and fragments count for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Group {

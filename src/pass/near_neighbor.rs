@@ -1,29 +1,29 @@
 //! Intermediate pass of near-neighbor skipping [Thesis §5.3].
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark};
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
-pub fn near_neighbor(scene: &Scene, pass: u32, passes: u32, form: cull::Form) -> Step {
+pub fn near_neighbor(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: cull::Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::Accumulated),
-        Usage::Sampled.of(Resource::NearestDistance),
     ];
+    accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
+    accesses.extend(needs.skips.then_some(Usage::Sampled.of(Resource::NearestDistance)));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
     let variant = match form.mark {
         Mark::Copy if culled && form.cull == Cull::Discard => "copy+discard",
         _ => form.mark_variant(),
     };
-    let shader = format!("near_neighbor.frag:{variant}");
+    let shader = format!("near_neighbor.frag:{}", needs.variant(vec![variant]));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
     draw.constants.push(constants::samples(scene));
     draw.constants.push(constants::depth_bits(scene));

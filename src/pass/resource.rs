@@ -24,8 +24,9 @@ pub enum Resource {
     Volume,
     /// Cells that stay transparent.
     Holes,
-    /// Pieces of the transfer function.
+    /// Pieces of the transfer function; of one without colours.
     Transfer,
+    GreyTransfer,
     /// The table of pre-integrated classification, and its axes.
     Preintegrated,
     Axis,
@@ -69,7 +70,7 @@ impl Resource {
             Self::MarksBuffer => "marks_buffer",
             Self::Volume => "volume",
             Self::Holes => "holes",
-            Self::Transfer => "transfer",
+            Self::Transfer | Self::GreyTransfer => "transfer",
             Self::Preintegrated => "preintegrated",
             Self::Axis => "axis",
             Self::NearestDistance => "nearest_distance",

@@ -1,6 +1,7 @@
 //! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
 
 pub mod longest;
+mod needs;
 mod passes;
 mod text;
 mod view;
@@ -8,9 +9,9 @@ mod view;
 pub use view::{Region, View};
 
 use crate::error::{Error, Result};
-use crate::pass::Step;
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
+use crate::pass::{Needs, Step};
 use crate::reference::section::most_sections;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Cull, DepthFormat, Filter, Formats, Last, Mark, MethodName};
@@ -93,7 +94,12 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     crate::reference::preintegrated::check(scene)?;
     let view = View::new(scene)?;
     let sampling = &scene.settings.sampling;
-    let needed = view.longest_samples.div_ceil(sampling.samples_per_pass);
+    let planner = scene.settings.method.planner;
+    let samples = match view.longest_samples {
+        longest if planner || longest == 0 => longest,
+        _ => whole_diagonal(scene),
+    };
+    let needed = samples.div_ceil(sampling.samples_per_pass);
     // Forced passes do not run for nothing either.
     let passes = if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed };
     if passes > MOST_PASSES {
@@ -122,16 +128,22 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     }
     let mut left_out = Vec::new();
     let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
+    let needs = needs::needs(scene, view.longest_samples, passes);
     let steps = if passes == 0 {
         leave("every pass", "no ray of this view meets the volume".to_owned());
         Vec::new()
     } else {
-        passes::steps(scene, &view, passes, form)
+        passes::steps(scene, needs, passes, form)
     };
     if passes > 0 {
-        leave_out(scene, form, &steps, &mut leave);
+        leave_out(scene, needs, form, &steps, &mut leave);
     }
-    if sampling.passes == 0 && passes > 0 {
+    let [width, height] = view.size;
+    if passes > 0 && view.region.size() != view.size {
+        let Region { width: w, height: h, .. } = view.region;
+        leave("pixels of targets", format!("the box covers {w} x {h} of {width} x {height}"));
+    }
+    if planner && sampling.passes == 0 && passes > 0 {
         let diagonal = whole_diagonal(scene).div_ceil(sampling.samples_per_pass);
         if diagonal > passes {
             let last = diagonal - 1;
@@ -141,7 +153,7 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
             );
         }
     }
-    let distance = Lookup::of(scene).filter(|_| passes > 0);
+    let distance = Lookup::of(scene).filter(|_| passes > 0 && needs.skips);
     Ok(Plan { view, passes, form, distance, steps, left_out })
 }
 
@@ -151,12 +163,19 @@ fn whole_diagonal(scene: &Scene) -> u32 {
     (scene.field.extent().length() / step).ceil() as u32
 }
 
-fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl FnMut(&str, String)) {
+fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], leave: &mut impl FnMut(&str, String)) {
     let (method, sampling) = (&scene.settings.method, &scene.settings.sampling);
     let uses = |r: Resource| steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
     let name = method.name.name();
+    let never_ends = format!("no ray of this view comes to an opacity above {}", sampling.termination);
+    const DENSE: &str =
+        "every cell is interesting, so that there is nothing to skip: slices or a single pass would do as well";
+    let looks_ahead = method.name.distance().is_some() || method.name == MethodName::RcBlock;
     if form.is_none() {
         leave("intermediate passes and the depth buffer", format!("{name} culls no fragments"));
+    } else if !uses(Resource::Stored) {
+        let why = if looks_ahead { format!("{never_ends}, and {DENSE}") } else { never_ends.clone() };
+        leave("intermediate passes and the depth buffer", why);
     } else if !uses(Resource::Marks) {
         leave("marks image and copies to depth", "the intermediate pass writes depth itself".to_owned());
     }
@@ -164,10 +183,20 @@ fn leave_out(scene: &Scene, form: Option<Form>, steps: &[Step], leave: &mut impl
         leave("intermediate passes after the first", "main passes decide where rays go on".to_owned());
     }
     if !uses(Resource::NearestDistance) {
-        leave("distance structure", format!("{name} does not look ahead"));
+        let why =
+            if method.name.distance().is_some() { DENSE.to_owned() } else { format!("{name} does not look ahead") };
+        leave("distance structure", why);
     }
     if !uses(Resource::CellRange) {
-        leave("block ranges and their table", format!("{name} does not look at blocks"));
+        let blocks = method.name == MethodName::RcBlock;
+        let why = if blocks { DENSE.to_owned() } else { format!("{name} does not look at blocks") };
+        leave("block ranges and their table", why);
+    }
+    if form.is_some() && !needs.ends {
+        leave("early ends of rays", never_ends);
+    }
+    if !needs.colors && !uses(Resource::Preintegrated) {
+        leave("colours of the transfer function", "red, green and blue are alike everywhere".to_owned());
     }
     if scene.field.holes.is_none() {
         leave("hole mask", "every voxel is a number, or is replaced by one".to_owned());

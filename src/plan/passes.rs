@@ -1,10 +1,10 @@
 //! The one table of methods: which passes, in which order.
 
-use super::View;
 use crate::pass::cull::{Form, Mark};
 use crate::pass::resource::Resource;
 use crate::pass::{
-    Step, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy, near_neighbor, termination,
+    Needs, Step, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy, near_neighbor,
+    termination,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodName};
@@ -19,43 +19,48 @@ pub const BATCH: u32 = 8;
 const SWITCH: f32 = 0.25;
 
 /// Steps of a frame, in order.
-pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Vec<Step> {
+pub fn steps(scene: &Scene, needs: Needs, passes: u32, form: Option<Form>) -> Vec<Step> {
     let method = &scene.settings.method;
     let mut steps = Vec::new();
-    if method.name == MethodName::RcBlock {
+    if method.name == MethodName::RcBlock && needs.skips {
         steps.push(build::cell_range(&Grid::new(&scene.field, BLOCK as u32)));
     }
-    if let Some(lookup) = Lookup::of(scene) {
+    if let Some(lookup) = Lookup::of(scene).filter(|_| needs.skips) {
         steps.extend(build::steps(&scene.field, &lookup));
     }
     steps.push(entry::entry());
     steps.push(direction::direction());
-    match (method.name, form) {
-        (MethodName::RcErt | MethodName::Cpu, Some(form)) => {
-            switched(&mut steps, scene, passes, form, 1, termination::termination);
+    // Where no ray ends early and nothing can be skipped there is nothing to decide.
+    let decides = needs.ends || needs.skips;
+    match (method.name, form.filter(|_| decides)) {
+        (MethodName::RcErt | MethodName::Cpu, Some(form)) if needs.ends => {
+            switched(&mut steps, scene, needs, (passes, form, 1), termination::termination);
+        }
+        (MethodName::RcBlock, Some(form)) if needs.skips => {
+            let first = u32::from(!method.block_first);
+            switched(&mut steps, scene, needs, (passes, form, first), block_skip::block_skip);
         }
         (MethodName::RcBlock, Some(form)) => {
-            let first = u32::from(!method.block_first);
-            switched(&mut steps, scene, passes, form, first, block_skip::block_skip);
+            switched(&mut steps, scene, needs, (passes, form, 1), termination::termination);
         }
         (name, Some(form)) if name.fused() => {
-            steps.push(clear::clear());
-            steps.push(near_neighbor::near_neighbor(scene, 0, passes, form));
+            steps.extend(needs.ends.then(clear::clear));
+            steps.push(near_neighbor::near_neighbor(scene, needs, 0, passes, form));
             for pass in 0..passes {
                 decided(&mut steps, pass, form, (form.mark == Mark::Copy).then_some(Resource::Marks));
-                steps.push(fused::fused(scene, pass, passes, form));
+                steps.push(fused::fused(scene, needs, pass, passes, form));
             }
         }
         (name, Some(form)) if name.distance().is_some() => {
-            steps.push(clear::clear());
+            steps.extend(needs.ends.then(clear::clear));
             for pass in 0..passes {
-                steps.push(near_neighbor::near_neighbor(scene, pass, passes, form));
+                steps.push(near_neighbor::near_neighbor(scene, needs, pass, passes, form));
                 decided(&mut steps, pass, form, None);
                 let end = crate::reference::section::section_end(pass, passes) as f32;
-                steps.push(main_pass::main_pass(scene, pass, Some((form.cull, end))));
+                steps.push(main_pass::main_pass(scene, needs, pass, Some((form.cull, end))));
             }
         }
-        _ => steps.extend((0..passes).map(|pass| main_pass::main_pass(scene, pass, None))),
+        _ => steps.extend((0..passes).map(|pass| main_pass::main_pass(scene, needs, pass, None))),
     }
     steps
 }
@@ -64,22 +69,21 @@ pub fn steps(scene: &Scene, _view: &View, passes: u32, form: Option<Form>) -> Ve
 fn switched(
     steps: &mut Vec<Step>,
     scene: &Scene,
-    passes: u32,
-    form: Form,
-    first: u32,
-    decide: fn(&Scene, u32, Form) -> Step,
+    needs: Needs,
+    (passes, form, first): (u32, Form, u32),
+    decide: fn(&Scene, Needs, u32, Form) -> Step,
 ) {
-    if first == 0 {
+    if first == 0 && needs.ends {
         steps.push(clear::clear());
     }
     for pass in 0..passes {
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
-            steps.push(decide(scene, pass, form));
+            steps.push(decide(scene, needs, pass, form));
             decided(steps, pass, form, None);
             culled = Some((form.cull, SWITCH));
         }
-        steps.push(main_pass::main_pass(scene, pass, culled));
+        steps.push(main_pass::main_pass(scene, needs, pass, culled));
     }
 }
 

@@ -22,6 +22,10 @@ impl Region {
         u64::from(self.width) * u64::from(self.height)
     }
 
+    pub fn size(self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
     pub fn columns(self) -> std::ops::Range<u32> {
         self.x..self.x + self.width
     }
@@ -77,7 +81,13 @@ impl View {
             solid.triangles(front).into_iter().map(clip).collect()
         };
         let (front, back) = (project(true), project(false));
-        let region = covered(&front, size);
+        let region = match covered(&front, size) {
+            // Without the planner targets are as large as the picture.
+            Region { width: 1.., .. } if !scene.settings.method.planner => {
+                Region { x: 0, y: 0, width: size[0], height: size[1] }
+            }
+            region => region,
+        };
         let longest_samples = longest_samples(scene, &rays, region);
         Ok(Self { size, rays, front, back, region, longest_samples })
     }

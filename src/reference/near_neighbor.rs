@@ -11,9 +11,6 @@ const WAY_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
 impl Twin<'_> {
     /// The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
-    ///
-    /// # Panics
-    /// When the frame has no distances; the plan of every `nn-*` method has them.
     pub fn next_section(&self, pixel: &mut Pixel, section: u32) -> u32 {
         let (sampling, method) = (&self.scene.settings.sampling, &self.scene.settings.method);
         let (mut i, end) = self.segment(pixel, section);
@@ -44,7 +41,8 @@ impl Twin<'_> {
 
     /// Samples from `i` on, which lies in `cell`, that show nothing: the least and the most that f32 may find.
     fn free_from(&self, pixel: &Pixel, i: u32, cell: [usize; 3]) -> [u32; 2] {
-        let distance = self.distance.expect("near-neighbor skipping is planned with distances");
+        // Where every cell is interesting no distances are planned.
+        let Some(distance) = self.distance else { return [0; 2] };
         let Some(bound) = distance.free(cell, octant_of(pixel.direction)) else { return [0; 2] };
         let [least, most] = self.steps_inside(pixel, i, cell, distance.grid.cell);
         let step = self.scene.settings.sampling.step;

@@ -83,13 +83,7 @@ impl Table {
     /// The table for the scene's transfer function and step; see [`check`].
     pub fn new(scene: &Scene) -> Self {
         let (transfer, sampling) = (&scene.transfer, &scene.settings.sampling);
-        let (low, high) = scene
-            .field
-            .values
-            .par_iter()
-            .fold(|| (f32::INFINITY, f32::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)))
-            .reduce(|| (f32::INFINITY, f32::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let pieces = axis(transfer, [f64::from(low), f64::from(high)]);
+        let pieces = axis(transfer, scene.field.extremes().map(f64::from));
         let nodes: Vec<Node> = pieces.iter().enumerate().flat_map(|(i, piece)| nodes_of(transfer, i, piece)).collect();
         let lengths = match sampling.alpha {
             Alpha::Exponential => sampling.step / transfer.reference,

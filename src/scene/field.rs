@@ -1,5 +1,7 @@
 //! The scalar field every method renders: voxel values brought to the scalar range, under a NaN policy.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -31,6 +33,8 @@ pub struct Field {
     pub values: Vec<f32>,
     /// Cells that are transparent, whatever they hold (policy `hole`), x fastest; none otherwise.
     pub holes: Option<Vec<bool>>,
+    /// Found when first asked for.
+    extremes: OnceLock<[f32; 2]>,
 }
 
 impl Field {
@@ -64,11 +68,20 @@ impl Field {
             return Err(Error::input(&volume.name, problem, "use a smaller volume"));
         }
         values.par_extend((0..count).into_par_iter().map(|i| normalised(volume.voxels.get(i), low, high)));
-        let mut field = Self { volume, range, values, holes: None };
+        let mut field = Self { volume, range, values, holes: None, extremes: OnceLock::new() };
         if bad > 0 && policy == NanPolicy::Hole {
             field.holes = Some(field.cells_where(|corner| !field.volume.voxels.get(corner).is_finite()));
         }
         Ok(field)
+    }
+
+    /// The least and the greatest value.
+    pub fn extremes(&self) -> [f32; 2] {
+        *self.extremes.get_or_init(|| {
+            let wider = |[low, high]: [f32; 2], [l, h]: [f32; 2]| [low.min(l), high.max(h)];
+            let none = || [f32::INFINITY, f32::NEG_INFINITY];
+            self.values.par_iter().map(|&v| [v, v]).reduce(none, wider)
+        })
     }
 
     pub fn dims(&self) -> [usize; 3] {

@@ -259,6 +259,8 @@ pub struct MethodSettings {
     /// `nn-cone`: the half-angle around a voxel's view direction, in degrees: one of [`CONES`].
     pub cone: f64,
     pub build: Builder,
+    /// Leave out what the scene does not need; without, everything a method may have is there.
+    pub planner: bool,
     /// How often an intermediate pass may look up a distance in a segment: again from where the last one ends, as long as
     /// that is in the segment.
     pub lookups: u32,
@@ -314,6 +316,7 @@ impl Default for MethodSettings {
             cell: 1,
             cone: 10.0,
             build: Builder::Auto,
+            planner: true,
             lookups: 1,
         }
     }

@@ -44,10 +44,13 @@ pub struct Frame {
     pub exponent: f32,
     pub step_voxels: f32,
     pub passes: u32,
+    pub first_column: u32,
+    pub first_row: u32,
 }
 
 impl Frame {
-    pub fn new(scene: &Scene, rays: &ViewRays, passes: u32) -> Self {
+    /// `first`: column and row of the targets' first pixel.
+    pub fn new(scene: &Scene, rays: &ViewRays, passes: u32, first: [u32; 2]) -> Self {
         let sampling = &scene.settings.sampling;
         let step = sampling.step * scene.field.finest();
         let dims = scene.field.dims().map(|n| n as f32);
@@ -67,6 +70,8 @@ impl Frame {
             exponent: (sampling.step / scene.transfer.reference) as f32,
             step_voxels: sampling.step as f32,
             passes,
+            first_column: first[0],
+            first_row: first[1],
         }
     }
 }
@@ -80,8 +85,7 @@ pub struct Step {
 }
 
 /// `Piece` of `glsl/shared/transfer.glsl`: one linear piece of a transfer function.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     pub rgba: [f32; 4],
     pub change: [f32; 4],
@@ -113,6 +117,16 @@ pub fn pieces(transfer: &TransferFunction) -> Vec<Piece> {
             Piece { rgba: rgba(i), change, begin, inverse_length, clear: clear(i), clear_change }
         })
         .collect()
+}
+
+/// Pieces as the shader's buffer has them: three rows each, two where there are no colours.
+pub fn rows(pieces: &[Piece], grey: bool) -> Vec<[f32; 4]> {
+    let of = |piece: &Piece| {
+        let place = [piece.begin, piece.inverse_length, piece.clear, piece.clear_change];
+        let ([g, _, _, a], [dg, _, _, da]) = (piece.rgba, piece.change);
+        if grey { vec![place, [g, a, dg, da]] } else { vec![place, piece.rgba, piece.change] }
+    };
+    pieces.iter().flat_map(of).collect()
 }
 
 /// `AxisPiece` of `glsl/shared/preintegrated.glsl`.

@@ -114,6 +114,22 @@ pub fn interesting(field: &Field, values: &Values, transfer: &TransferFunction, 
     }
 }
 
+/// Whether no cell of the volume is left that shows nothing, so that there is nothing to skip. Stops at the first one.
+pub fn all_interesting(field: &Field, transfer: &TransferFunction) -> bool {
+    if field.holes.is_some() {
+        return false;
+    }
+    let support = Support::of(transfer);
+    let [nx, ny, _] = field.cells();
+    let shows = |i: usize| {
+        let corners = field.corners([i % nx, i / nx % ny, i / (nx * ny)]).map(|c| field.values[c]);
+        let low = corners.into_iter().fold(f32::INFINITY, f32::min);
+        let high = corners.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        support.meets(low, high)
+    };
+    (0..field.cells().iter().product()).into_par_iter().all(shows)
+}
+
 /// `value` rises with the code.
 fn of_values<T: Copy + PartialOrd + Send + Sync>(
     field: &Field,

@@ -1,0 +1,56 @@
+//! What a scene's rays may meet and do: from it follow the passes, structures and shader code that are left out.
+
+use crate::pass::Needs;
+use crate::reference::fused::blend_rounding;
+use crate::scene::settings::{Alpha, MethodName};
+use crate::scene::{Scene, TransferFunction};
+use crate::structure::cells::all_interesting;
+
+/// What a scene whose longest ray has so many samples, in so many passes, needs of its method.
+pub fn needs(scene: &Scene, longest_samples: u32, passes: u32) -> Needs {
+    let method = &scene.settings.method;
+    if !method.planner {
+        return Needs::ALL;
+    }
+    let looks_ahead = method.name.distance().is_some() || method.name == MethodName::RcBlock;
+    Needs {
+        ends: may_end(scene, longest_samples, passes),
+        skips: looks_ahead && !all_interesting(&scene.field, &scene.transfer),
+        colors: !is_grey(&scene.transfer),
+    }
+}
+
+/// Whether red, green and blue are alike everywhere.
+fn is_grey(transfer: &TransferFunction) -> bool {
+    transfer.knots().iter().all(|knot| knot.color.iter().all(|c| *c == knot.color[0]))
+}
+
+/// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and the longest
+/// ray, rounding included.
+fn may_end(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
+    let sampling = &scene.settings.sampling;
+    // Opacities never exceed 1.
+    if sampling.termination >= 1.0 {
+        return false;
+    }
+    let [low, high] = scene.field.extremes().map(f64::from);
+    let greatest = greatest_opacity(&scene.transfer, low, high);
+    let samples = f64::from(longest_samples.saturating_add(1));
+    let clear = match sampling.alpha {
+        // As far as the samples go, the last one for a whole step.
+        Alpha::Exponential => (samples * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
+        Alpha::Paper => (samples * (-greatest).ln_1p()).exp(),
+    };
+    let rounding = f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * 1e-6;
+    1.0 - clear + rounding > sampling.termination
+}
+
+/// The greatest opacity of any value from `low` to `high`.
+fn greatest_opacity(transfer: &TransferFunction, low: f64, high: f64) -> f64 {
+    // Interpolation may leave the range by its rounding.
+    let by = 1e-6 * low.abs().max(high.abs());
+    let (low, high) = (low - by, high + by);
+    let inside = transfer.knots().iter().filter(|knot| low <= knot.x && knot.x <= high).map(|knot| knot.opacity);
+    let ends = [low, high].map(|x| transfer.evaluate(x)[3]);
+    inside.chain(ends).fold(0.0, f64::max)
+}
