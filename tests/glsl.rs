@@ -16,7 +16,8 @@ use depthleap::error::Kind;
 use depthleap::glsl;
 use folder::{alter, copy, files};
 
-/// Module names, from the files as they stand: one for each `//@variant` line, one for a file without any.
+/// Module names, from the files as they stand: one for each `//@variant` line, twice as many after each `//@also` line, one
+/// for a file without any.
 fn expected_names() -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for file in files(Path::new("glsl")) {
@@ -26,7 +27,10 @@ fn expected_names() -> BTreeSet<String> {
         }
         let (name, text) = (file.to_str().unwrap(), fs::read_to_string(Path::new("glsl").join(&file)).unwrap());
         let variants = text.lines().filter_map(|line| line.strip_prefix("//@variant ")?.split(' ').next());
-        let variants: Vec<String> = variants.map(|variant| format!("{name}:{variant}")).collect();
+        let mut variants: Vec<String> = variants.map(|variant| format!("{name}:{variant}")).collect();
+        for also in text.lines().filter_map(|line| line.strip_prefix("//@also ")?.split(' ').next()) {
+            variants.extend(variants.clone().into_iter().map(|variant| format!("{variant}+{also}")));
+        }
         match variants.is_empty() {
             true => names.extend([name.to_owned()]),
             false => names.extend(variants),
@@ -118,6 +122,7 @@ fn variant_lines_are_checked() {
     let copy = copy();
     for (line, says) in [
         ("//@variants plain", "is no known line"),
+        ("//@also more", "there is no variant that `more` goes with"),
         ("//@variant", "this variant has no name"),
         ("//@variant holes", "the variant `holes` is there twice"),
     ] {

@@ -79,6 +79,7 @@ fn unwritten(steps: &[Step]) -> Vec<String> {
         Resource::Volume,
         Resource::Holes,
         Resource::Transfer,
+        Resource::GreyTransfer,
         Resource::Support,
         Resource::Bundle,
         Resource::BlockTable,

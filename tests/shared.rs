@@ -8,11 +8,11 @@ use std::mem::offset_of;
 
 use bytemuck::Zeroable;
 use depthleap::glsl;
-use depthleap::pass::{Work, main_pass};
+use depthleap::pass::{Needs, Work, main_pass};
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, Slice, Step, pieces};
+use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, Slice, Step, pieces, rows};
 use random::Random;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -62,6 +62,8 @@ fn frame() -> Layout {
         exponent,
         step_voxels,
         passes,
+        first_column,
+        first_row,
     })
 }
 
@@ -75,10 +77,6 @@ fn slice() -> Layout {
 
 fn bundle() -> Layout {
     layout!(Bundle { eye, sides, low, high, spread, short_step })
-}
-
-fn piece() -> Layout {
-    layout!(Piece { rgba, change, begin, inverse_length, clear, clear_change })
 }
 
 fn axis_piece() -> Layout {
@@ -227,11 +225,6 @@ fn bundle_is_alike_in_rust_and_in_every_shader() {
 }
 
 #[test]
-fn piece_is_alike_in_rust_and_in_every_shader() {
-    assert_alike("Piece", &piece(), "main_pass.frag:discard+holes");
-}
-
-#[test]
 fn axis_piece_is_alike_in_rust_and_in_every_shader() {
     assert_alike("AxisPiece", &axis_piece(), "fused.frag:copy+preintegrated");
 }
@@ -239,7 +232,7 @@ fn axis_piece_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn every_alteration_of_a_layout_is_seen() {
     for (name, rust) in
-        [("Frame", frame()), ("Step", step()), ("Slice", slice()), ("Bundle", bundle()), ("Piece", piece())]
+        [("Frame", frame()), ("Step", step()), ("Slice", slice()), ("Bundle", bundle()), ("AxisPiece", axis_piece())]
     {
         let shader = in_shaders(name).swap_remove(0).1;
         let altered = |alter: &dyn Fn(&mut Layout)| {
@@ -269,7 +262,7 @@ fn constants(transfer: &TransferFunction) -> (usize, usize) {
     let mut settings = Settings::default();
     settings.volume.builtin = Some("shells:4".to_owned());
     let scene = Scene { transfer: transfer.clone(), ..read::scene(&settings).unwrap() };
-    let Work::Draw(draw) = main_pass::main_pass(&scene, 0, None).work else { panic!("a main pass draws") };
+    let Work::Draw(draw) = main_pass::main_pass(&scene, Needs::ALL, 0, None).work else { panic!("a main pass draws") };
     let value = |name: &str| draw.constants.iter().find(|(n, _)| *n == name).unwrap().1 as usize;
     (value("PIECES"), value("SEARCH"))
 }
@@ -298,6 +291,21 @@ fn random_transfer(random: &mut Random, knots: usize) -> TransferFunction {
     places.sort_by(f64::total_cmp);
     let knot = |x: f64| Knot { x, color: [0.0; 3].map(|_: f64| random.next()), opacity: random.next() };
     TransferFunction::new("random", places.into_iter().map(knot).collect(), 1.0).unwrap()
+}
+
+#[test]
+fn rows_hold_all_of_a_piece() {
+    let grey = TransferFunction::preset("ramp", 1.0).unwrap().unwrap();
+    let pieces = pieces(&grey);
+    let (coloured, plain) = (rows(&pieces, false), rows(&pieces, true));
+    assert_eq!((coloured.len(), plain.len()), (3 * pieces.len(), 2 * pieces.len()));
+    for (i, piece) in pieces.iter().enumerate() {
+        let place = [piece.begin, piece.inverse_length, piece.clear, piece.clear_change];
+        assert_eq!(coloured[3 * i..3 * i + 3], [place, piece.rgba, piece.change]);
+        // Green and blue are red again.
+        let [g, a, dg, da] = plain[2 * i + 1];
+        assert_eq!((plain[2 * i], [g, g, g, a], [dg, dg, dg, da]), (place, piece.rgba, piece.change));
+    }
 }
 
 #[test]

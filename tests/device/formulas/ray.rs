@@ -58,7 +58,7 @@ fn cases(device: &Arc<Device>) -> Vec<Case> {
         let rays = camera.rays(SIZE).unwrap();
         // The near plane is a plain f32 on the device.
         let rays = ViewRays { near: f64::from(rays.near as f32), ..rays };
-        let frame = Some(Frame::new(&scene, &rays, 1));
+        let frame = Some(Frame::new(&scene, &rays, 1, [0; 2]));
         let pixels: Vec<[u32; 2]> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])).collect();
         let arguments: Vec<[f32; 4]> =
             pixels.iter().map(|&[x, y]| [x as f32 + 0.5, y as f32 + 0.5, 0.0, 0.0]).collect();

@@ -82,7 +82,7 @@ fn cases(device: &Arc<Device>, evaluator: &Evaluator, scene: &Scene) -> Vec<Case
     let indices: Vec<u32> = pixels.iter().map(|pixel| index(pixel, &mut random)).collect();
     let arguments: Vec<[f32; 4]> = indices.iter().map(|&i| [i as f32, 0.0, 0.0, 0.0]).collect();
     let setup = Setup {
-        frame: Some(Frame::new(scene, &twin.rays, 1)),
+        frame: Some(Frame::new(scene, &twin.rays, 1, [0; 2])),
         resources: vec![
             ("entry", Resource::Sampled(&entry, &sampler, SAMPLED)),
             ("direction", Resource::Sampled(&direction, &sampler, SAMPLED)),

@@ -29,7 +29,7 @@ fn frame(passes: u32, step: f64, samples_per_pass: u32) -> Frame {
     let mut scene: Scene = scene("shells:4");
     scene.settings.sampling.step = step;
     scene.settings.sampling.samples_per_pass = samples_per_pass;
-    Frame::new(&scene, &scene.camera.rays([4, 4]).unwrap(), passes)
+    Frame::new(&scene, &scene.camera.rays([4, 4]).unwrap(), passes, [0; 2])
 }
 
 fn evaluator(device: &Arc<Device>, variant: &str) -> Evaluator {

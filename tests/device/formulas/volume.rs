@@ -5,7 +5,7 @@ use std::sync::Arc;
 use depthleap::math::interpolate::trilinear;
 use depthleap::scene::transfer::Knot;
 use depthleap::scene::{Scene, TransferFunction};
-use depthleap::shared::{Frame, pieces};
+use depthleap::shared::{Frame, pieces, rows};
 use depthleap::structure::blocks::{Blocks, range_codes};
 use depthleap::vulkan::{Buffer, BufferInfo, Device, Place, Resource, Sampler, vk};
 use glam::DVec3;
@@ -52,14 +52,15 @@ fn results(device: &Arc<Device>, scene: &Scene, arguments: &[Arguments]) -> Vec<
     let volume = image(device, "volume", extent, vk::Format::R32_SFLOAT, &scene.field.values);
     let sampler = Sampler::new(device, "nearest", false).unwrap();
     let pieces = pieces(&scene.transfer);
-    let bytes: &[u8] = bytemuck::cast_slice(&pieces);
+    let rows = rows(&pieces, false);
+    let bytes: &[u8] = bytemuck::cast_slice(&rows);
     let (size, usage) = (bytes.len() as u64, vk::BufferUsageFlags::STORAGE_BUFFER);
     let info = BufferInfo { name: "transfer".to_owned(), size, usage, place: Place::Upload };
     let transfer = Buffer::new(device, info).unwrap();
     transfer.write(0, bytes).unwrap();
     let count = pieces.len() as u32;
     let setup = Setup {
-        frame: Some(Frame::new(scene, &scene.camera.rays([4, 4]).unwrap(), 1)),
+        frame: Some(Frame::new(scene, &scene.camera.rays([4, 4]).unwrap(), 1, [0; 2])),
         resources: vec![
             ("volume", Resource::Sampled(&volume, &sampler, SAMPLED)),
             ("transfer", Resource::Storage(&transfer)),

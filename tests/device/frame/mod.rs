@@ -2,15 +2,18 @@
 //! out.
 
 mod features;
+#[path = "../../plan/lacking.rs"]
+mod lacking;
 mod law;
 mod orbit;
+mod planner;
 pub mod scenes;
 mod truth;
 
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    [law::tests(), orbit::tests(), truth::tests(), features::tests()]
+    [law::tests(), orbit::tests(), truth::tests(), features::tests(), planner::tests()]
         .into_iter()
         .flatten()
         .map(|test| test.within("frame"))

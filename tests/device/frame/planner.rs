@@ -1,0 +1,58 @@
+//! What the planner leaves out changes no bit of a picture, and is not in the device's memory.
+
+use std::sync::Arc;
+
+use depthleap::frame::{GpuFrame, Measure, Resident, Structures};
+use depthleap::pass::cull::Form;
+use depthleap::plan;
+use depthleap::read;
+use depthleap::scene::Scene;
+use depthleap::vulkan::Device;
+
+use super::lacking::{self, Less, SCENES};
+use super::scenes::{differing, forms};
+use crate::harness::{Test, test};
+
+pub fn tests() -> Vec<Test> {
+    vec![test("planner::pictures_stay_and_memory_and_passes_do_not", pictures_stay)]
+}
+
+struct Frame {
+    picture: Vec<[f32; 4]>,
+    bytes: u64,
+    steps: usize,
+}
+
+fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool) -> Frame {
+    let mut scene = scene.clone();
+    scene.settings.method.planner = planner;
+    let plan = plan::plan(&scene, form).expect("a plan");
+    let mut structures = Structures::default();
+    structures.prepare(&scene, &plan);
+    let mut resident = Resident::new(device);
+    resident.prepare(&scene, &plan, &structures).expect("room");
+    let mut gpu = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
+    gpu.run(Measure::Nothing).expect("a frame");
+    let bytes = resident.bytes(&plan).into_iter().chain(gpu.bytes()).map(|(_, bytes)| bytes).sum();
+    Frame { picture: gpu.picture().expect("a picture"), bytes, steps: plan.steps.len() }
+}
+
+fn pictures_stay(device: &Arc<Device>) {
+    for (name, change, less) in SCENES {
+        let scene = read::scene(&lacking::settings(change)).expect("a sound scene");
+        // The last form of each method is the one every device has.
+        let form = forms(device, scene.settings.method.name).pop().flatten();
+        let (lean, full) = (frame(device, &scene, form, true), frame(device, &scene, form, false));
+        println!("{name}: {} bytes of {}, {} steps of {}", lean.bytes, full.bytes, lean.steps, full.steps);
+        assert_eq!(differing(&lean.picture, &full.picture), 0, "{name}");
+        assert!(full.picture.iter().any(|p| p[3] > 0.0) || matches!(less, Less::Everything), "{name} shows something");
+        assert!(lean.steps <= full.steps && lean.bytes <= full.bytes, "{name}");
+        match less {
+            Less::Resource(resource) => assert!(lean.bytes < full.bytes, "{name}: {}", resource.name()),
+            Less::Pixels => assert!(lean.bytes < full.bytes, "{name}"),
+            Less::Group(group) => assert!(lean.steps < full.steps, "{name}: {}", group.name()),
+            Less::Passes => assert!(lean.steps < full.steps, "{name}"),
+            Less::Everything => assert_eq!((lean.steps, lean.bytes), (0, 0), "{name}"),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Scenes that each lack one thing a frame may have.
+
+use depthleap::pass::Group;
+use depthleap::pass::resource::Resource;
+use depthleap::scene::Settings;
+use depthleap::scene::settings::MethodName;
+
+/// What a plan has less for it.
+#[derive(Clone, Copy, Debug)]
+pub enum Less {
+    Resource(Resource),
+    Group(Group),
+    Passes,
+    Pixels,
+    Everything,
+}
+
+/// A scene that needs all of near-neighbor skipping: colours, empty space, rays that end.
+pub fn settings(change: impl Fn(&mut Settings)) -> Settings {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:32".to_owned());
+    settings.transfer.points =
+        Some(vec![[0.0, 0.2, 0.4, 1.0, 0.0], [0.25, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.5]]);
+    settings.image.size = [61, 49];
+    settings.camera.eye = [0.8974, 0.6533, 1.5544];
+    settings.sampling.samples_per_pass = 4;
+    settings.sampling.termination = 0.9;
+    change(&mut settings);
+    if settings.transfer.preset.is_some() {
+        settings.transfer.points = None;
+    }
+    settings
+}
+
+type Change = fn(&mut Settings);
+
+fn preset(s: &mut Settings, name: &str) {
+    s.transfer.preset = Some(name.to_owned());
+}
+
+pub const SCENES: [(&str, Change, Less); 20] = [
+    ("no colours", |s| preset(s, "ramp"), Less::Resource(Resource::Transfer)),
+    (
+        "no colours, fused",
+        |s| (preset(s, "ramp"), s.method.name = MethodName::NnOmniFused).1,
+        Less::Resource(Resource::Transfer),
+    ),
+    (
+        "no colours, without skipping",
+        |s| (preset(s, "surface"), s.method.name = MethodName::Rc).1,
+        Less::Resource(Resource::Transfer),
+    ),
+    (
+        "nothing to skip",
+        |s| s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]),
+        Less::Resource(Resource::NearestDistance),
+    ),
+    (
+        "nothing to skip, fused",
+        |s| {
+            s.method.name = MethodName::NnOmniFused;
+            s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
+        },
+        Less::Resource(Resource::NearestDistance),
+    ),
+    (
+        "nothing to skip, octants",
+        |s| {
+            s.method.name = MethodName::NnDirectional;
+            s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
+        },
+        Less::Resource(Resource::NearestDistance),
+    ),
+    (
+        "no empty blocks",
+        |s| {
+            s.method.name = MethodName::RcBlock;
+            s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
+        },
+        Less::Resource(Resource::CellRange),
+    ),
+    ("nothing to skip and no ray that ends", |s| preset(s, "haze"), Less::Group(Group::Intermediate)),
+    (
+        "nothing to skip and no ray that ends, fused",
+        |s| (preset(s, "haze"), s.method.name = MethodName::NnOmniFused).1,
+        Less::Group(Group::Intermediate),
+    ),
+    (
+        "nothing to skip and no ray that ends, blocks",
+        |s| (preset(s, "haze"), s.method.name = MethodName::RcBlock).1,
+        Less::Group(Group::Intermediate),
+    ),
+    (
+        "no ray that ends",
+        |s| (s.method.name = MethodName::RcErt, s.sampling.termination = 1.0).1,
+        Less::Resource(Resource::Stored),
+    ),
+    (
+        "no opacity to end a ray",
+        |s| {
+            s.method.name = MethodName::RcErt;
+            s.transfer.points = Some(vec![[0.0, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.01]]);
+        },
+        Less::Group(Group::Intermediate),
+    ),
+    ("long rays", |s| s.camera.eye = [0.0, 0.0, 3.0], Less::Passes),
+    ("far away", |s| s.camera.eye = [3.0, 2.5, 8.0], Less::Pixels),
+    ("a corner of the box", |s| s.camera.target = [-0.75, -0.75, 0.0], Less::Pixels),
+    (
+        "a corner of the box, fused",
+        |s| {
+            s.method.name = MethodName::NnOmniFused;
+            s.camera.target = [-0.75, -0.75, 0.0];
+        },
+        Less::Pixels,
+    ),
+    (
+        "a flat volume",
+        |s| {
+            s.volume.builtin = Some("shells:32x32x2".to_owned());
+            s.camera.eye = [0.0, 1.9, 0.4];
+        },
+        Less::Pixels,
+    ),
+    (
+        "a narrow picture of a far volume",
+        |s| {
+            s.image.size = [8, 96];
+            s.camera.eye = [0.0, 0.0, 6.0];
+        },
+        Less::Pixels,
+    ),
+    ("nothing in sight", |s| s.camera.target = [0.0, 0.0, 9.0], Less::Everything),
+    ("nothing in front", |s| (s.camera.eye, s.camera.target) = ([0.0, 0.0, -3.0], [0.0, 0.0, -9.0]), Less::Everything),
+];
