@@ -8,8 +8,10 @@ use serde::Serialize;
 use super::options::{MethodOptions, SceneOptions, scene_name};
 use super::output;
 use crate::error::Result;
+use crate::frame::bytes::bytes;
 use crate::measure::write::{is_standard_output, write_standard_output};
-use crate::plan::{self, LeftOut, bytes_per_pixel};
+use crate::pass::resource::Resource;
+use crate::plan::{self, LeftOut};
 use crate::read;
 use crate::scene::Scene;
 use crate::scene::settings::MethodName;
@@ -49,7 +51,12 @@ struct PlanJson<'a> {
     /// x, y, width, height in pixels.
     region: [u32; 4],
     steps: Vec<StepJson<'a>>,
-    targets: Vec<TargetJson>,
+    /// What frames draw into.
+    targets: Vec<ResourceJson>,
+    /// All that steps read or write, in bytes on a device; null where only building it tells.
+    resources: Vec<ResourceJson>,
+    /// Of all resources whose bytes are known.
+    bytes: u64,
     left_out: &'a [LeftOut],
 }
 
@@ -64,9 +71,9 @@ struct StepJson<'a> {
 }
 
 #[derive(Serialize)]
-struct TargetJson {
+struct ResourceJson {
     name: &'static str,
-    bytes: u64,
+    bytes: Option<u64>,
 }
 
 impl Plan {
@@ -132,12 +139,9 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
             constants: draw.map(|d| d.constants.clone()).unwrap_or_default(),
         }
     });
-    let mut targets: Vec<_> =
-        plan.steps.iter().flat_map(|s| &s.accesses).map(|a| a.resource).filter(|r| r.is_target()).collect();
-    targets.sort();
-    targets.dedup();
-    let pixels = u64::from(plan.view.size[0]) * u64::from(plan.view.size[1]);
-    let formats = scene.settings.formats();
+    let resources: Vec<(Resource, Option<u64>)> =
+        plan.resources().into_iter().map(|r| (r, bytes(scene, plan, r))).collect();
+    let json = |(resource, bytes): &(Resource, Option<u64>)| ResourceJson { name: resource.name(), bytes: *bytes };
     let region = plan.view.region;
     PlanJson {
         version: crate::measure::record::FORMAT,
@@ -148,10 +152,9 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
         passes: plan.passes,
         region: [region.x, region.y, region.width, region.height],
         steps: steps.collect(),
-        targets: targets
-            .into_iter()
-            .map(|r| TargetJson { name: r.name(), bytes: pixels * bytes_per_pixel(r, formats) })
-            .collect(),
+        targets: resources.iter().filter(|(r, _)| r.is_target()).map(json).collect(),
+        resources: resources.iter().map(json).collect(),
+        bytes: resources.iter().filter_map(|(_, bytes)| *bytes).sum(),
         left_out: &plan.left_out,
     }
 }

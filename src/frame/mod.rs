@@ -2,6 +2,7 @@
 
 pub mod background;
 pub mod build;
+pub mod bytes;
 pub mod compile;
 pub mod cpu;
 pub mod distances;

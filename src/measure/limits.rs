@@ -21,9 +21,7 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
     if size[0] > width || size[1] > height {
         return picture(format!("{} allows at most {width}x{height} pixels", info.name));
     }
-    let mut resources: Vec<Resource> = plan.steps.iter().flat_map(|s| &s.accesses).map(|a| a.resource).collect();
-    resources.sort();
-    resources.dedup();
+    let resources = plan.resources();
     let formats = scene.settings.formats();
     let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, formats)).sum();
     let (needed, there) = (per_pixel * plan.view.region.pixels(), info.memory_bytes);

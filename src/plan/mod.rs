@@ -8,10 +8,12 @@ mod view;
 
 pub use view::{Region, View};
 
+use std::collections::BTreeSet;
+
 use crate::error::{Error, Result};
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
-use crate::pass::{Needs, Step};
+use crate::pass::{Needs, Step, Work};
 use crate::reference::section::most_sections;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Cull, DepthFormat, Filter, Formats, Last, Mark, MethodName};
@@ -29,6 +31,18 @@ pub struct Plan {
     pub distance: Option<Lookup>,
     pub steps: Vec<Step>,
     pub left_out: Vec<LeftOut>,
+}
+
+impl Plan {
+    /// All that steps read, write or go through, each once.
+    pub fn resources(&self) -> BTreeSet<Resource> {
+        let through = |step: &Step| match step.work {
+            Work::Copy { by, .. } => Some(by),
+            _ => None,
+        };
+        let used = self.steps.iter().flat_map(|step| step.accesses.iter().map(|access| access.resource));
+        used.chain(self.steps.iter().filter_map(through)).collect()
+    }
 }
 
 /// Something a frame may have and this one has not.
@@ -231,7 +245,7 @@ pub fn bytes_per_pixel(resource: Resource, formats: Formats) -> u64 {
             Accumulate::Rgba16f => 8,
             Accumulate::Rgba8 => 4,
         },
-        Resource::Stored | Resource::Marks => match formats.depth {
+        Resource::Stored | Resource::Marks | Resource::MarksBuffer => match formats.depth {
             DepthFormat::D32 | DepthFormat::D24 => 4,
             DepthFormat::D16 => 2,
         },

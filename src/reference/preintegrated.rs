@@ -24,6 +24,12 @@ const BEYOND: u32 = 32;
 /// Knots a transfer function may have: the table is as large as the square of its pieces.
 pub const MOST_KNOTS: usize = 512;
 
+/// Nodes along each axis of a scene's table.
+pub fn nodes(scene: &Scene) -> usize {
+    let pieces = axis(&scene.transfer, scene.field.extremes().map(f64::from));
+    pieces.iter().map(|piece| piece.intervals as usize + 1).sum()
+}
+
 /// Whether a scene may be classified by a table, where it asks for it.
 ///
 /// # Errors

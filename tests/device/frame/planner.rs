@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use depthleap::frame::bytes::bytes;
 use depthleap::frame::{GpuFrame, Measure, Resident, Structures};
 use depthleap::pass::cull::Form;
 use depthleap::plan;
@@ -33,7 +34,13 @@ fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool)
     resident.prepare(&scene, &plan, &structures).expect("room");
     let mut gpu = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
     gpu.run(Measure::Nothing).expect("a frame");
-    let bytes = resident.bytes(&plan).into_iter().chain(gpu.bytes()).map(|(_, bytes)| bytes).sum();
+    let there: Vec<_> = resident.bytes(&plan).into_iter().chain(gpu.bytes()).collect();
+    for (resource, found) in &there {
+        let told = bytes(&scene, &plan, *resource);
+        // Of a structure on its way the plan says nothing.
+        assert!(told.is_none_or(|told| told == *found), "{}: {found} bytes, {told:?} in the plan", resource.name());
+    }
+    let bytes = there.iter().map(|(_, bytes)| bytes).sum();
     Frame { picture: gpu.picture().expect("a picture"), bytes, steps: plan.steps.len() }
 }
 
