@@ -1,5 +1,5 @@
 //! Stiff and extreme scenes, each with the picture it must give: from a closed form, the exact integral or the same sum in
-//! f64. See [`battery`] and [`judge`].
+//! f64. See [`battery()`] and [`judge()`].
 
 mod battery;
 mod depth;
