@@ -53,6 +53,20 @@ fn fused_pass_reads_what_it_blends_into() {
 }
 
 #[test]
+fn what_a_scene_does_not_need_is_not_in_its_shaders() {
+    let has = |name: &str, what: &str| bindings(&module(name)).iter().any(|(bound, ..)| *bound == what);
+    for pass in ["near_neighbor.frag:copy", "near_neighbor.frag:fragdepth", "fused.frag:copy", "fused.frag:last+holes"]
+    {
+        assert!(has(pass, "nearest_distance") && has(pass, "accumulated"), "{pass}");
+        assert!(!has(&format!("{pass}+dense"), "nearest_distance"), "{pass}");
+        assert!(!has(&format!("{pass}+endless"), "accumulated"), "{pass}");
+    }
+    assert!(has("block_skip.frag:copy", "accumulated") && !has("block_skip.frag:copy+endless", "accumulated"));
+    let table = ["transfer", "preintegrated"].map(|what| has("main_pass.frag:preintegrated", what));
+    assert_eq!((table, has("main_pass.frag:plain", "transfer")), ([false, true], true));
+}
+
+#[test]
 fn last_fused_pass_has_nothing_to_decide() {
     let decides = |name: &str| module(name).spec_constants.iter().any(|(name, _)| name == "BLEND_ROUNDING");
     assert!(decides("fused.frag:copy") && !decides("fused.frag:last") && !decides("fused.frag:last+discard"));
@@ -106,9 +120,10 @@ fn specialization_constants_have_their_names_and_ids() {
         ("CORRECT_OPACITY", 4),
         ("LAST_PARTIAL", 5),
         ("EXTRA_FETCHES", 11),
+        ("GREY", 14),
     ]);
     assert_eq!(constants("main_pass.frag:plain"), main);
-    let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8), ("LOOKUPS", 9)]);
+    let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8), ("LOOKUPS", 9), ("SPANS", 12)]);
     let intermediate = [&main[..1], &skipping[..]].concat();
     assert_eq!(constants("near_neighbor.frag:fragdepth"), intermediate);
     let mut fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 10)])[..]].concat();
