@@ -3,12 +3,12 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Step, Work, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
-pub fn termination(scene: &Scene, _needs: Needs, pass: u32, form: cull::Form) -> Step {
+pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),

@@ -232,7 +232,8 @@ fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], le
         leave("interpolation in the shader", "the texture unit interpolates".to_owned());
     }
     if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
-        leave("counting of rays", format!("there are no more than {} main passes", passes::BATCH));
+        let few = format!("there are no more than {} main passes", passes::BATCH);
+        leave("counting of rays", if uses(Resource::Stored) { few } else { "no ray is marked".to_owned() });
     }
 }
 

@@ -34,14 +34,16 @@ pub fn steps(scene: &Scene, needs: Needs, passes: u32, form: Option<Form>) -> Ve
     let decides = needs.ends || needs.skips;
     match (method.name, form.filter(|_| decides)) {
         (MethodName::RcErt | MethodName::Cpu, Some(form)) if needs.ends => {
-            switched(&mut steps, scene, needs, (passes, form, 1), termination::termination);
+            switched(&mut steps, scene, needs, (passes, form, 1), &|pass| termination::termination(scene, pass, form));
         }
         (MethodName::RcBlock, Some(form)) if needs.skips => {
             let first = u32::from(!method.block_first);
-            switched(&mut steps, scene, needs, (passes, form, first), block_skip::block_skip);
+            switched(&mut steps, scene, needs, (passes, form, first), &|pass| {
+                block_skip::block_skip(scene, needs, pass, form)
+            });
         }
         (MethodName::RcBlock, Some(form)) => {
-            switched(&mut steps, scene, needs, (passes, form, 1), termination::termination);
+            switched(&mut steps, scene, needs, (passes, form, 1), &|pass| termination::termination(scene, pass, form));
         }
         (name, Some(form)) if name.fused() => {
             steps.extend(needs.ends.then(clear::clear));
@@ -71,7 +73,7 @@ fn switched(
     scene: &Scene,
     needs: Needs,
     (passes, form, first): (u32, Form, u32),
-    decide: fn(&Scene, Needs, u32, Form) -> Step,
+    decide: &dyn Fn(u32) -> Step,
 ) {
     if first == 0 && needs.ends {
         steps.push(clear::clear());
@@ -79,7 +81,7 @@ fn switched(
     for pass in 0..passes {
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
-            steps.push(decide(scene, needs, pass, form));
+            steps.push(decide(pass));
             decided(steps, pass, form, None);
             culled = Some((form.cull, SWITCH));
         }
