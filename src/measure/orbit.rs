@@ -87,9 +87,11 @@ impl Runner<'_> {
         for frame in 0..count {
             let Some(scene) = scene_of(frame) else { break };
             progress(&format!("{}: {}, frame {} of {count}", self.name, method.name.name(), frame + 1));
-            let served = background.serve(frame, &scene, resident)?;
             let mut plan = plan::plan(&scene, form)?;
-            plan.distance = served.map(|served| served.lookup).filter(|_| plan.distance.is_some());
+            // Nothing is built where the plan looks nothing up.
+            let looks_up = plan.distance.is_some();
+            let served = if looks_up { background.serve(frame, &scene, resident)? } else { None };
+            plan.distance = served.map(|served| served.lookup);
             let mut structures = Structures::default();
             if builds_on_host(&checked.device, &scene, &plan)
                 && plan.distance.is_some_and(|lookup| resident.distance(&lookup).is_none())
@@ -101,7 +103,7 @@ impl Runner<'_> {
             let counts = gpu.run(Measure::Counts { statistics: false })?.fragments.unwrap_or_default();
             let picture = gpu.picture()?;
             let run = gpu.run(Measure::Nothing)?;
-            let build_ms = background.go_on(frame, resident, &scene_of)?;
+            let build_ms = if looks_up { background.go_on(frame, resident, &scene_of)? } else { 0.0 };
             orbit.pictures.push(hash(&picture));
             orbit.frames.push(OrbitFrame {
                 frame,

@@ -75,6 +75,8 @@ fn verdict_is_made_from_the_runs() {
     );
     assert!(of(11.0, 250).contains("fragments saved do not become time saved"), "{}", of(11.0, 250));
     assert!(of(11.0, 250).contains("-10 % of its time"));
+    // Where there is nothing to skip nothing was shown.
+    assert!(of(9.0, 1000).contains("saves no fragments of rc-ert in any scene"), "{}", of(9.0, 1000));
     assert!(verdict(&[]).contains("no runs"));
     let runs = saved(vec![timed("rc-ert", 1000, 10.0, 1.0)], true);
     assert!(verdict(&groups(&runs)).contains("no run of near-neighbor skipping was timed"));

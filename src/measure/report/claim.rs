@@ -33,6 +33,11 @@ pub fn verdict(groups: &[Group]) -> String {
     if best.is_empty() {
         return format!("On {device} no run of near-neighbor skipping was timed beside one of {AGAINST}.");
     }
+    if best.iter().all(|(_, fragments, _)| *fragments <= 0.0) {
+        return format!(
+            "On {device} near-neighbor skipping saves no fragments of {AGAINST} in any scene, and can save no time."
+        );
+    }
     let range = |of: &dyn Fn(&(String, f64, f64)) -> f64, digits: usize| {
         let (least, most) =
             best.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
