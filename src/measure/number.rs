@@ -37,3 +37,8 @@ pub fn bytes(count: u64) -> String {
     }
     if unit == "B" { format!("{count} B") } else { format!("{value:.1} {unit}") }
 }
+
+/// `1.2e-3`, or `-` where there is no number.
+pub fn error(value: Option<f64>) -> String {
+    value.map_or("-".to_owned(), |e| if e == 0.0 { "0".to_owned() } else { format!("{e:.1e}") })
+}

@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
             .expect(Expect::Constant(opaque), ROUNDING)
             .with(|s| (s.sampling.alpha, s.sampling.last) = (Alpha::Paper, crate::scene::settings::Last::Full)),
     );
-    // A single step: what is behind does not hide what f32 made of it.
+    // Over a long reference length, so that steps show what f32 made of 1 - opacity.
     for (name, step) in [("opacity 1 - 1e-7", 1.0), ("opacity 1 - 1e-7 in steps of 1/16", 1.0 / 16.0)] {
         cases.push(
             Case::medium(GROUP, name, "constant:4", 1.0 - 1e-7)

@@ -28,7 +28,7 @@ pub fn cases() -> Vec<Case> {
         |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(GROUP, name, "constant:24", 0.03).with(change);
     let beer = |opacity: f64, steps: f64| Expect::Beer { color: COLOR, opacity, steps: Some(steps) };
     let shown = |alpha: f64| Expect::Constant([COLOR[0] * alpha, COLOR[1] * alpha, COLOR[2] * alpha, alpha]);
-    // Head-on, every ray is a voxel short of thirty long at the least.
+    // Head-on every ray has far more samples than it takes.
     let ended = |name: &str, opacity: f64, threshold: f64, samples: f64| {
         Case::medium(GROUP, name, "constant:24", opacity)
             .with(|s| {

@@ -8,7 +8,7 @@ use crate::scene::volume::Voxels;
 const GROUP: &str = "skip trap";
 const SIDE: usize = 33;
 
-/// A cube of zeros with 255 where `lit` is.
+/// A cube of zeros with that value where `lit` says so.
 fn cube(value: u8, lit: impl Fn([usize; 3]) -> bool) -> Option<Volume> {
     let at = |i: usize| [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
     let voxels = (0..SIDE.pow(3)).map(|i| if lit(at(i)) { value } else { 0 }).collect();

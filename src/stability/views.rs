@@ -55,10 +55,8 @@ pub fn cases() -> Vec<Case> {
         shapes.into_iter().filter_map(|(name, dims, spacing)| solid(name, dims, spacing)).collect();
     let view = |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(VIEW, name, "constant:24", 0.03).with(change);
     let eye = |eye: [f64; 3], target: [f64; 3]| move |s: &mut Settings| (s.camera.eye, s.camera.target) = (eye, target);
-    let along = |case: Case| {
-        let (expect, _) = (Expect::Beer { color: super::battery::COLOR, opacity: 0.03, steps: None }, ());
-        case.expect(expect, GRAZING)
-    };
+    let along =
+        |case: Case| case.expect(Expect::Beer { color: super::battery::COLOR, opacity: 0.03, steps: None }, GRAZING);
     cases.extend([
         view("eye inside", &eye([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4])),
         view("eye in the middle", &eye([0.0; 3], [0.3, 0.2, 0.4])),

@@ -4,6 +4,7 @@ mod accuracies;
 mod orbits;
 mod pages;
 mod pictures;
+mod probes;
 mod records;
 mod reproduce;
 mod runs;

@@ -14,7 +14,7 @@ use crate::scene::Settings;
 pub use explain::{expected_order, remarks};
 pub use page::page;
 pub use plot::{step_svg, time_svg};
-pub use text::{csv, error as error_cell, text};
+pub use text::{csv, text};
 
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;

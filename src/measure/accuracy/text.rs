@@ -4,14 +4,9 @@ use std::fmt::Write;
 
 use super::{Accuracy, Curve, Point, answers};
 use crate::error::{Error, Result};
-use crate::measure::number::{milliseconds, thousands};
+use crate::measure::number::{error, milliseconds, thousands};
 
 pub(super) const HEAD: [&str; 7] = ["step", "largest error", "rmse", "PSNR / dB", "SSIM", "time / ms", "samples"];
-
-/// `1.2e-3`, or `-` where there is no number.
-pub fn error(value: Option<f64>) -> String {
-    value.map_or("-".to_owned(), |e| if e == 0.0 { "0".to_owned() } else { format!("{e:.1e}") })
-}
 
 pub(super) fn cells(point: &Point) -> [String; 7] {
     let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));

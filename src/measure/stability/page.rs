@@ -2,7 +2,7 @@
 
 use super::Stability;
 use super::text::{faults, share, word};
-use crate::measure::accuracy::error_cell;
+use crate::measure::number::error;
 use crate::measure::report::html::{Html, escape};
 use crate::stability::{Outcome, Verdict};
 
@@ -39,7 +39,7 @@ pub fn page(found: &Stability) -> String {
         methods.iter().for_each(|method| page.raw(&format!("<th class=\"number\">{}</th>", escape(method))));
         page.raw("</tr></thead>\n<tbody>\n");
         for case in found.cases.iter().filter(|case| case.group == group) {
-            let [absolute, relative] = case.tolerance.map(|t| error_cell(Some(t)));
+            let [absolute, relative] = case.tolerance.map(|t| error(Some(t)));
             let allowed = match case.outcomes.iter().any(|o| o.share.is_some()) {
                 true => format!("{absolute} and {relative} of the value: {}", case.reason),
                 false => String::new(),
