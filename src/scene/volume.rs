@@ -96,6 +96,10 @@ pub struct Volume {
     /// Distance of voxel centres along x, y and z, in the source's unit; finite and positive.
     pub spacing: [f64; 3],
     pub voxels: Voxels,
+    /// What reading did with the file that its user may want to know: one sentence each, for outputs and reports.
+    pub notes: Vec<String>,
+    /// What may make a picture of the volume mislead, one sentence each.
+    pub warnings: Vec<String>,
 }
 
 impl Volume {
@@ -125,6 +129,6 @@ impl Volume {
                 "correct the sizes or complete the data",
             ));
         }
-        Ok(Self { name, dims, spacing, voxels })
+        Ok(Self { name, dims, spacing, voxels, notes: Vec::new(), warnings: Vec::new() })
     }
 }
