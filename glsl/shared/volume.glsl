@@ -6,8 +6,11 @@ layout(set = 0, binding = 3) uniform sampler3D volume;
 layout(set = 0, binding = 4) uniform usampler3D holes;
 #endif
 
-// Interpolate in the shader, in f32, rather than in the texture unit (8 or 9 fractional bits on most).
-layout(constant_id = 1) const bool FILTER_EXACT = false;
+// Who interpolates: the texture unit (8 or 9 fractional bits on most), the shader in f32, or nobody.
+const int HARDWARE = 0;
+const int EXACT = 1;
+const int NEAREST = 2;
+layout(constant_id = 1) const int FILTER = HARDWARE;
 
 // a + w * (b - a): exactly a where both are equal.
 vec4 mix_fused(vec4 a, vec4 b, float w) {
@@ -28,6 +31,12 @@ float sample_exact(Place place) {
     return fma(w.z, y.y - y.x, y.x);
 }
 
+// The value of the voxel whose centre is nearest, on each axis the later one of two that are as near.
+float sample_nearest(Place place) {
+    ivec3 voxel = ivec3(place.below) + ivec3(greaterThanEqual(place.weight, vec3(0.5)));
+    return texelFetch(volume, clamp(voxel, ivec3(0), ivec3(frame.dims.xyz) - 1), 0).r;
+}
+
 // An artificial cost: so many further fetches, each where the one before it says. It changes no picture.
 layout(constant_id = 11) const uint EXTRA_FETCHES = 0;
 
@@ -42,7 +51,11 @@ float burdened(float value) {
 
 // Scalar value `steps` from the entry point, in units of the texture.
 float sample_volume(Ray ray, float steps) {
-    return burdened(FILTER_EXACT ? sample_exact(place_at(ray, steps)) : textureLod(volume, position_at(ray, steps), 0.0).r);
+    if (FILTER == HARDWARE) {
+        return burdened(textureLod(volume, position_at(ray, steps), 0.0).r);
+    }
+    Place place = place_at(ray, steps);
+    return burdened(FILTER == NEAREST ? sample_nearest(place) : sample_exact(place));
 }
 
 // Whether sample `i` lies in a cell that stays transparent since a corner is not a finite number.

@@ -1,10 +1,13 @@
-// Which cells of a grid are interesting: those over whose range of values the transfer function shows anything. One bit
-// a cell, 32 cells of a row in a word, one word an invocation. Twin: src/structure/cells.rs.
+// Which cells of a grid are interesting: those over whose range of values the transfer function shows anything; where
+// samples have the value of the nearest voxel, those with a voxel that shows. One bit a cell, 32 cells of a row in a word,
+// one word an invocation. Twin: src/structure/cells.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@variant voxels
 //@variant voxels+holes HOLES
 //@variant ranges RANGES
+//@variant nearest NEAREST
+//@variant nearest+holes NEAREST HOLES
 
 #include "shared/slice.glsl"
 
@@ -50,7 +53,23 @@ bool visible(vec2 range) {
     return false;
 }
 
-#ifndef RANGES
+#ifdef NEAREST
+// Whether any voxel of the cell `first` of the grid shows something.
+bool any_visible(ivec3 first, ivec3 last) {
+    ivec3 begin = first * int(slice.cell);
+    ivec3 end = min(begin + int(slice.cell), last);
+    for (int z = begin.z; z <= end.z; ++z) {
+        for (int y = begin.y; y <= end.y; ++y) {
+            for (int x = begin.x; x <= end.x; ++x) {
+                if (visible(vec2(texelFetch(volume, ivec3(x, y, z), 0).r))) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+#elif !defined(RANGES)
 // Range of the four voxels at `x` that the cells of row (y, z) share.
 vec2 column_range(int x, ivec2 y, ivec2 z) {
     float a = texelFetch(volume, ivec3(x, y.x, z.x), 0).r;
@@ -74,6 +93,15 @@ void main() {
 #ifdef RANGES
     for (uint x = begin; x < end; ++x) {
         bits |= uint(visible(cell_range.ranges[row * slice.cells_x + x])) << (x - begin);
+    }
+#elif defined(NEAREST)
+    ivec2 yz = ivec2(row % slice.cells_y, row / slice.cells_y);
+    for (uint x = begin; x < end; ++x) {
+        bool shows = any_visible(ivec3(x, yz), textureSize(volume, 0) - 1);
+#ifdef HOLES
+        shows = shows && texelFetch(holes, ivec3(x, yz), 0).r == 0u;
+#endif
+        bits |= uint(shows) << (x - begin);
     }
 #else
     ivec3 last = textureSize(volume, 0) - 1;

@@ -332,7 +332,7 @@ fn with_step(settings: &mut Settings, own: &Settings, step: f64) {
 fn exact(scene: &Scene) -> Result<Picture> {
     let size = scene.settings.image.size;
     let rays = scene.camera.rays(size)?;
-    let pixels = ExactIntegrator::new(&scene.field, &scene.transfer).picture(&rays, size);
+    let pixels = ExactIntegrator::of(scene).picture(&rays, size);
     Picture::new(size, pixels.into_iter().map(|pixel| pixel.map(|c| c as f32)).collect())
 }
 

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
+use crate::scene::range::RangeEnd;
 use crate::scene::settings::{
     Accumulate, Alpha, Builder, Classification, Cull, DepthFormat, Filter, Last, Mark, MethodName, Offset, Settings,
     TransferSettings, VolumeTexture,
@@ -27,13 +28,16 @@ pub struct SceneOptions {
     /// Length an opacity stands for, in voxels of the finest spacing [default: 1]
     #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
     reference: Option<f64>,
-    /// Scalar range that the transfer function covers, in the volume's values [default: the whole range of u8 and u16,
-    /// minimum to maximum of other types]
-    #[arg(long, value_name = "LOW,HIGH", value_parser = numbers::<2>, allow_hyphen_values = true)]
-    range: Option<[f64; 2]>,
-    /// What a voxel that is no finite number stands for [default: replace]
+    /// Scalar range that the transfer function covers, in the volume's values or as percentiles of them (1%,99%)
+    /// [default: the whole range of u8, minimum to maximum of other types]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
+    range: Option<[RangeEnd; 2]>,
+    /// What a voxel that is not a finite number, or is no data, stands for [default: replace]
     #[arg(long, value_name = "POLICY")]
     nan: Option<NanPolicy>,
+    /// Values of voxels that stand for no data, such as -9999; they count as NaN and not for the default range
+    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', value_parser = number, allow_hyphen_values = true)]
+    no_data: Option<Vec<f64>>,
     /// Voxels along x, y and z of a raw file (x varies fastest, little endian)
     #[arg(long, value_name = "X,Y,Z", value_parser = counts, allow_hyphen_values = true)]
     dims: Option<[usize; 3]>,
@@ -43,9 +47,13 @@ pub struct SceneOptions {
     /// Distances between the voxels of a raw file, in any unit [default: 1,1,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true)]
     spacing: Option<[f64; 3]>,
-    /// How voxels are kept on the device [default: native]
+    /// How voxels are kept on the device [default: auto]
     #[arg(long, value_name = "FORMAT")]
     texture: Option<VolumeTexture>,
+    /// How far an interpolated value may be off, as a part of the scalar range: --texture auto takes the smallest format
+    /// that the device interpolates as precisely [default: 0.001953125]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    precision: Option<f64>,
 
     /// Picture size in pixels [default: 500x500]
     #[arg(long, value_name = "WxH", value_parser = viewport, allow_hyphen_values = true, help_heading = "View")]
@@ -102,7 +110,8 @@ pub struct SceneOptions {
     /// N, main passes; 0 takes as many as the longest ray of the view needs [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Sampling")]
     passes: Option<u32>,
-    /// T, a ray ends when its opacity is greater; 1 ends none early [default: 0.95]
+    /// T, a ray ends when its opacity is greater, as in the papers: up to 1 - T of what lies behind, the background
+    /// included, then stays as it was; 1 ends none early [default: 0.95]
     #[arg(long, value_name = "OPACITY", allow_negative_numbers = true, help_heading = "Sampling")]
     pub(super) termination: Option<f64>,
     /// Artificial cost of a sample: so many further fetches, one after another, which change no picture [default: 0]
@@ -200,7 +209,9 @@ impl SceneOptions {
         put_some(&mut volume.dims, &self.dims);
         put_some(&mut volume.voxel_type, &self.voxel_type);
         put_some(&mut volume.spacing, &self.spacing);
+        put(&mut volume.no_data, &self.no_data);
         put(&mut volume.texture, &self.texture);
+        put(&mut volume.precision, &self.precision);
         let image = &mut settings.image;
         put(&mut image.size, &self.viewport);
         put(&mut image.background, &self.background);
@@ -276,6 +287,18 @@ pub const BENCH_METHODS: [MethodName; 8] = [
 /// `256,256,128` as sizes of a volume.
 fn counts(text: &str) -> Result<[usize; 3], String> {
     list(text, |part| part.parse().ok().filter(|n| *n > 0), "no number of voxels of at least 1")
+}
+
+/// `0,255` or `1%,99%` as the ends of a scalar range.
+fn range(text: &str) -> Result<[RangeEnd; 2], String> {
+    let ends = text.split(',').map(str::parse).collect::<Result<Vec<RangeEnd>, _>>()?;
+    ends.try_into().map_err(|ends: Vec<_>| format!("2 ends are needed, {} are given", ends.len()))
+}
+
+/// A finite number.
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|n: &f64| n.is_finite());
+    number.ok_or_else(|| format!("`{text}` is not a finite number"))
 }
 
 /// `1,2,3` as N finite numbers.

@@ -4,8 +4,7 @@ use crate::pass::resource::Resource;
 use crate::plan::{Plan, bytes_per_pixel};
 use crate::reference::preintegrated;
 use crate::scene::Scene;
-use crate::scene::settings::VolumeTexture;
-use crate::scene::volume::VoxelType;
+use crate::scene::texture::TextureChoice;
 use crate::shared;
 use crate::structure::blocks::{BLOCK, CODES};
 use crate::structure::grid::{Grid, OCTANTS};
@@ -18,7 +17,7 @@ pub fn bytes(scene: &Scene, plan: &Plan, resource: Resource) -> Option<u64> {
     let bytes = match resource {
         Resource::Box => size_of::<[f32; 3]>() * (plan.view.front.len() + plan.view.back.len()),
         Resource::Frame => size_of::<shared::Frame>(),
-        Resource::Volume => field.values.len() * texel(scene),
+        Resource::Volume => field.values.len() * TextureChoice::of(scene).format.bytes(),
         Resource::Holes => field.cells().iter().product(),
         Resource::Transfer => 3 * row * knots,
         Resource::GreyTransfer => 2 * row * knots,
@@ -37,13 +36,4 @@ pub fn bytes(scene: &Scene, plan: &Plan, resource: Resource) -> Option<u64> {
         }
     };
     Some(bytes as u64)
-}
-
-/// Bytes of a voxel in the volume's texture.
-fn texel(scene: &Scene) -> usize {
-    match (scene.settings.volume.texture, scene.field.volume.voxels.voxel_type()) {
-        (VolumeTexture::Native, VoxelType::U8 | VoxelType::I8) => 1,
-        (VolumeTexture::Native, VoxelType::U16 | VoxelType::I16) | (VolumeTexture::R16, _) => 2,
-        (VolumeTexture::Native | VolumeTexture::R32f, _) => 4,
-    }
 }

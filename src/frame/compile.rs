@@ -99,7 +99,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         frame: frame_buffer(device, scene, plan)?,
         linear: match scene.settings.sampling.filter {
             Filter::Hardware => Some(Sampler::new(device, "trilinear", true)?),
-            Filter::Exact => None,
+            Filter::Exact | Filter::Nearest => None,
         },
         nearest: Sampler::new(device, "nearest", false)?,
         framebuffers: HashMap::new(),

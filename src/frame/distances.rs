@@ -36,9 +36,16 @@ pub struct Built {
 /// What the structures of one scene are made from and those that were made.
 #[derive(Default)]
 pub struct Distances {
-    /// By side of the cells and resource.
-    parts: HashMap<(u32, Resource), Part>,
+    parts: HashMap<PartKey, Part>,
     built: Vec<Built>,
+}
+
+/// Side of the cells, whether they are judged by the values of single voxels, and the resource.
+type PartKey = (u32, bool, Resource);
+
+/// The key of what lookups of that kind of cells are built from. Ranges are the same for all.
+fn part_key(cell: u32, nearest: bool, resource: Resource) -> PartKey {
+    (cell, nearest && resource != Resource::CellRange, resource)
 }
 
 /// A buffer and what filling it took, milliseconds.
@@ -74,7 +81,7 @@ impl Distances {
 
     /// Ranges of the values in cells of that side.
     pub fn ranges(&self, cell: u32) -> Option<&Buffer> {
-        self.parts.get(&(cell, Resource::CellRange)).map(|part| &part.buffer)
+        self.part(cell, false, Resource::CellRange)
     }
 
     /// Takes distances that were made elsewhere.
@@ -84,7 +91,7 @@ impl Distances {
 
     /// Forgets what depends on the transfer function.
     pub fn forget_transfer(&mut self) {
-        self.parts.retain(|(_, resource), _| *resource == Resource::CellRange);
+        self.parts.retain(|(_, _, resource), _| *resource == Resource::CellRange);
         self.built.clear();
     }
 
@@ -105,8 +112,8 @@ impl Distances {
         cell: u32,
     ) -> Result<f64> {
         let grid = Grid::new(source.field, cell);
-        self.build_parts(device, pipelines, source, &grid, &[steps::cell_range(&grid)])?;
-        Ok(self.parts.get(&(cell, Resource::CellRange)).map_or(0.0, |part| part.ms))
+        self.build_parts(device, pipelines, source, &grid, false, &[steps::cell_range(&grid)])?;
+        Ok(self.ms(cell, false, Resource::CellRange).unwrap_or(0.0))
     }
 
     /// Builds distances on the device and waits for them.
@@ -137,21 +144,17 @@ impl Distances {
         lookup: &Lookup,
     ) -> Result<Pending> {
         let grid = Grid::new(source.field, lookup.cell);
-        let octants = if lookup.distance == Distance::Directional { OCTANTS } else { 1 };
+        let octants = octants(lookup.distance);
         let list = match lookup.distance {
             Distance::Omni => steps::omni(&grid, Resource::NearestDistance),
             Distance::Directional => steps::directional(&grid),
             Distance::Optimal | Distance::Cone => steps::bundle(&grid),
         };
-        let mut first = Vec::new();
-        if grid.cell > 1 {
-            first.push(steps::cell_range(&grid));
-        }
-        first.push(steps::interesting(&grid, source.field.holes.is_some()));
+        let mut first = steps::cells(&grid, source.field, lookup);
         if lookup.view.is_some() {
             first.extend(steps::widen(&grid));
         }
-        self.build_parts(device, pipelines, source, &grid, &first)?;
+        self.build_parts(device, pipelines, source, &grid, lookup.nearest, &first)?;
         if lookup.view.is_some() {
             let omni = Lookup { distance: Distance::Omni, view: None, ..*lookup };
             if self.get(&omni).is_none() {
@@ -159,7 +162,7 @@ impl Distances {
             }
         }
         let image = distance_image(device, &grid, octants, lookup.view.is_none())?;
-        let mut buffers = self.transient(device, &grid, octants, &list)?;
+        let mut buffers = self.transient(device, lookup, &grid, &list)?;
         if let Some(view) = &lookup.view {
             let bundle = shared::Bundle::from(&Bundles::new(&grid, source.field, view));
             buffers.push((Resource::Bundle, filled(device, Resource::Bundle, bytemuck::bytes_of(&bundle), true)?));
@@ -169,7 +172,9 @@ impl Distances {
             Resource::NearestDistance => Some(Given::Image(&image)),
             Resource::OmniDistance => omni.map(|built| Given::Image(&built.image)),
             Resource::Bundle => find(&buffers, resource).map(Given::Uniform),
-            _ => find(&buffers, resource).or_else(|| self.part(lookup.cell, resource)).map(Given::Storage),
+            _ => find(&buffers, resource)
+                .or_else(|| self.part(lookup.cell, lookup.nearest, resource))
+                .map(Given::Storage),
         };
         let job = Job::new(device, lookup.distance.name(), &list, pipelines, &given)?;
         Ok(Pending { lookup: *lookup, job, image, _buffers: buffers.into_iter().map(|(_, buffer)| buffer).collect() })
@@ -186,21 +191,24 @@ impl Distances {
         let Pending { lookup, image, .. } = pending;
         let omni = lookup.view.and_then(|_| self.get(&Lookup { distance: Distance::Omni, view: None, ..lookup }));
         // The omni structure's time has the cells' in it already.
-        let widen: f64 = [Resource::Wide2, Resource::Wide4].iter().filter_map(|r| self.ms(lookup.cell, *r)).sum();
-        let cells: f64 =
-            [Resource::CellRange, Resource::Interesting].iter().filter_map(|r| self.ms(lookup.cell, *r)).sum();
+        let widen: f64 =
+            [Resource::Wide2, Resource::Wide4].iter().filter_map(|r| self.ms(lookup.cell, lookup.nearest, *r)).sum();
+        let cells: f64 = [Resource::CellRange, Resource::Interesting]
+            .iter()
+            .filter_map(|r| self.ms(lookup.cell, lookup.nearest, *r))
+            .sum();
         let before = omni.map_or(cells, |omni| omni.ms + widen);
         let view_ms = if lookup.view.is_some() { ms } else { 0.0 };
         self.built.push(Built { lookup, image, ms: before + ms, view_ms });
         Ok(())
     }
 
-    fn part(&self, cell: u32, resource: Resource) -> Option<&Buffer> {
-        self.parts.get(&(cell, resource)).map(|part| &part.buffer)
+    fn part(&self, cell: u32, nearest: bool, resource: Resource) -> Option<&Buffer> {
+        self.parts.get(&part_key(cell, nearest, resource)).map(|part| &part.buffer)
     }
 
-    fn ms(&self, cell: u32, resource: Resource) -> Option<f64> {
-        self.parts.get(&(cell, resource)).map(|part| part.ms)
+    fn ms(&self, cell: u32, nearest: bool, resource: Resource) -> Option<f64> {
+        self.parts.get(&part_key(cell, nearest, resource)).map(|part| part.ms)
     }
 
     /// Runs those of `list` whose results are not there, and keeps these.
@@ -210,23 +218,24 @@ impl Distances {
         pipelines: &mut Pipelines,
         source: Source,
         grid: &Grid,
+        nearest: bool,
         list: &[Step],
     ) -> Result<()> {
         let cell = grid.cell as u32;
         let support = filled(device, Resource::Support, bytemuck::cast_slice(&source.support.closed()), false)?;
         for step in list {
-            let Some(resource) = written(step).find(|r| self.part(cell, *r).is_none()) else { continue };
+            let Some(resource) = written(step).find(|r| self.part(cell, nearest, *r).is_none()) else { continue };
             let buffer = storage(device, resource, steps::bytes(grid, 1, resource))?;
             let given = |wanted: Resource| match wanted {
                 Resource::Volume => Some(Given::Image(source.volume)),
                 Resource::Holes => source.holes.map(Given::Image),
                 Resource::Support => Some(Given::Storage(&support)),
                 _ if wanted == resource => Some(Given::Storage(&buffer)),
-                _ => self.part(cell, wanted).map(Given::Storage),
+                _ => self.part(cell, nearest, wanted).map(Given::Storage),
             };
             let mut job = Job::new(device, &step.name, std::slice::from_ref(step), pipelines, &given)?;
             let ms = timed(device, &mut job)?;
-            self.parts.insert((cell, resource), Part { buffer, ms });
+            self.parts.insert(part_key(cell, nearest, resource), Part { buffer, ms });
         }
         Ok(())
     }
@@ -235,13 +244,14 @@ impl Distances {
     fn transient(
         &self,
         device: &Arc<Device>,
+        lookup: &Lookup,
         grid: &Grid,
-        octants: usize,
         list: &[Step],
     ) -> Result<Vec<(Resource, Buffer)>> {
+        let octants = octants(lookup.distance);
         let mut made: Vec<(Resource, Buffer)> = Vec::new();
         for resource in list.iter().flat_map(|step| &step.accesses).map(|access| access.resource) {
-            let there = find(&made, resource).is_some() || self.part(grid.cell as u32, resource).is_some();
+            let there = find(&made, resource).is_some() || self.part(lookup.cell, lookup.nearest, resource).is_some();
             let bytes = steps::bytes(grid, octants, resource);
             if !there && bytes > 0 {
                 made.push((resource, storage(device, resource, bytes)?));
@@ -249,6 +259,11 @@ impl Distances {
         }
         Ok(made)
     }
+}
+
+/// Octants that a structure tells apart.
+fn octants(distance: Distance) -> usize {
+    if distance == Distance::Directional { OCTANTS } else { 1 }
 }
 
 /// Runs a job; its time as [`Built`] has it.
@@ -270,7 +285,7 @@ fn find(buffers: &[(Resource, Buffer)], resource: Resource) -> Option<&Buffer> {
 /// Whether the device takes the buffers of a build; a volume too large for them is built on the host.
 pub fn fits(device: &Device, field: &Field, lookup: &Lookup) -> bool {
     let grid = Grid::new(field, lookup.cell);
-    let octants = if lookup.distance == Distance::Directional { OCTANTS } else { 1 };
+    let octants = octants(lookup.distance);
     let largest = steps::steps(field, lookup)
         .iter()
         .flat_map(|step| &step.accesses)

@@ -177,7 +177,7 @@ impl Resident {
         let bytes = bytemuck::cast_slice(&table.texels);
         let image = self.upload_image(Resource::Preintegrated, extent, vk::Format::R32G32B32A32_SFLOAT, bytes)?;
         self.images.insert(Resource::Preintegrated, image);
-        let texels = texels(scene);
+        let texels = Texels::of(scene);
         let pieces = shared::axis_pieces(&table, |x| texels.scale * x + texels.offset);
         self.upload_buffer(Resource::Axis, bytemuck::cast_slice(&pieces))?;
         self.table = Some(table);
@@ -218,7 +218,7 @@ impl Resident {
                 self.make(resource, scene)?;
             }
         }
-        let support = Support::of(&texels(scene).transfer(&scene.transfer));
+        let support = Support::of(&Texels::of(scene).transfer(&scene.transfer));
         let Some(volume) = self.images.get(&Resource::Volume) else {
             return Err(Error::device(&self.device.info.name, "has no volume to build from", "report this bug"));
         };
@@ -231,7 +231,7 @@ impl Resident {
         let field = &scene.field;
         match resource {
             Resource::Volume => {
-                let texels = texels(scene);
+                let texels = Texels::of(scene);
                 check_format(&self.device, texels.format(), scene.settings.sampling.filter)?;
                 let image = self.upload_image(resource, field.dims(), texels.format(), texels.bytes())?;
                 self.images.insert(resource, image);
@@ -242,12 +242,12 @@ impl Resident {
                 self.images.insert(resource, image);
             }
             Resource::Transfer | Resource::GreyTransfer => {
-                let pieces = shared::pieces(&texels(scene).transfer(&scene.transfer));
+                let pieces = shared::pieces(&Texels::of(scene).transfer(&scene.transfer));
                 let rows = shared::rows(&pieces, resource == Resource::GreyTransfer);
                 self.upload_buffer(resource, bytemuck::cast_slice(&rows))?;
             }
             Resource::BlockTable => {
-                let table = blocks::visibility_table(&texels(scene).transfer(&scene.transfer));
+                let table = blocks::visibility_table(&Texels::of(scene).transfer(&scene.transfer));
                 let image = self.upload_image(resource, [256, 256, 1], vk::Format::R8_UINT, &table)?;
                 self.images.insert(resource, image);
             }
@@ -287,11 +287,6 @@ impl Resident {
         upload::image(&self.device, &image, bytes)?;
         Ok(image)
     }
-}
-
-/// The volume as the device has it.
-fn texels(scene: &Scene) -> Texels<'_> {
-    Texels::new(&scene.field, scene.settings.volume.texture)
 }
 
 fn check_format(device: &Device, format: vk::Format, filter: Filter) -> Result<()> {

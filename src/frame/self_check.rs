@@ -18,7 +18,7 @@ use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
-use crate::scene::{Camera, Scene, TransferFunction};
+use crate::scene::{Camera, Scene, TextureUnit, TransferFunction};
 use crate::vulkan::{Device, vk};
 
 /// What was found for one form.
@@ -138,7 +138,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     let field = Field::new(builtin::volume("shells:24")?, None, NanPolicy::Replace)?;
     let transfer =
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
-    Ok(Scene { settings, field: Arc::new(field), transfer, camera })
+    Ok(Scene { settings, field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
 }
 
 struct Run {

@@ -36,7 +36,7 @@ impl Structures {
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
         self.table = self.table(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
-            let texels = Texels::new(&scene.field, scene.settings.volume.texture);
+            let texels = Texels::of(scene);
             let transfer = texels.transfer(&scene.transfer);
             let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
             self.distances.push((lookup, timed(build, |d| d.bytes.len() as u64)));

@@ -1,11 +1,13 @@
-//! How a volume is kept on the device: the texture's format, its texels, and where the scalar range lies in it.
+//! A volume's texels on the device, and where the scalar range lies in them.
+
+use std::borrow::Cow;
 
 use ash::vk;
 use rayon::prelude::*;
 
-use crate::scene::settings::VolumeTexture;
+use crate::scene::texture::{Kept, TexelFormat, TextureChoice, code_span};
 use crate::scene::volume::Voxels;
-use crate::scene::{Field, TransferFunction};
+use crate::scene::{Field, Scene, TransferFunction};
 use crate::structure::cells::Values;
 
 /// Texels of a volume, and the map from x (0..1 over the scalar range) to the texture's own value:
@@ -18,45 +20,56 @@ pub struct Texels<'a> {
 }
 
 impl<'a> Texels<'a> {
-    pub fn new(field: &'a Field, texture: VolumeTexture) -> Self {
-        match (texture, &field.volume.voxels) {
-            (VolumeTexture::Native, Voxels::U8(v)) => Self::unorm(field, Values::Unorm8(v.into()), 0.0, 255.0),
-            (VolumeTexture::Native, Voxels::I8(v)) => {
-                let codes: Vec<u8> = v.iter().map(|&i| i.wrapping_sub(i8::MIN) as u8).collect();
-                Self::unorm(field, Values::Unorm8(codes.into()), -128.0, 255.0)
-            }
-            (VolumeTexture::Native, Voxels::U16(v)) => Self::unorm(field, Values::Unorm16(v.into()), 0.0, 65535.0),
-            (VolumeTexture::Native, Voxels::I16(v)) => {
-                let codes: Vec<u16> = v.iter().map(|&i| i.wrapping_sub(i16::MIN) as u16).collect();
-                Self::unorm(field, Values::Unorm16(codes.into()), -32768.0, 65535.0)
-            }
-            (VolumeTexture::R16, _) => Self::quantised(field),
-            (VolumeTexture::Native | VolumeTexture::R32f, _) => {
-                Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 }
-            }
+    /// The texels of a scene's volume, as [`TextureChoice`] keeps it.
+    pub fn of(scene: &'a Scene) -> Self {
+        Self::new(&scene.field, TextureChoice::of(scene).kept)
+    }
+
+    fn new(field: &'a Field, kept: Kept) -> Self {
+        match kept {
+            Kept::Spread => Self::spread(field),
+            Kept::Float => Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 },
+            Kept::Stored | Kept::Widened => Self::coded(field, kept),
         }
     }
 
-    /// Integers as stored: the texture's value is (voxel - lowest) / span.
-    fn unorm(field: &Field, values: Values<'a>, lowest: f64, span: f64) -> Self {
+    /// Integers as stored: the texture's value is (voxel - least) / (most - least) of their type. Where x is 0 everywhere,
+    /// so is the texture's value.
+    fn coded(field: &'a Field, kept: Kept) -> Self {
         let [low, high] = field.range;
-        Self { values, scale: (high - low) / span, offset: (low - lowest) / span }
+        let [least, most] = code_span(field).unwrap_or_default();
+        let values = match (&field.volume.voxels, kept) {
+            (Voxels::U8(v), Kept::Widened) => Values::Unorm16(codes(field, v, |v| u16::from(v) * WIDEN).into()),
+            (Voxels::U8(v), _) => Values::Unorm8(borrowed_or(field, v, || codes(field, v, |v| v))),
+            (Voxels::I8(v), Kept::Widened) => {
+                Values::Unorm16(codes(field, v, |v| u16::from(from_i8(v)) * WIDEN).into())
+            }
+            (Voxels::I8(v), _) => Values::Unorm8(codes(field, v, from_i8).into()),
+            (Voxels::U16(v), _) => Values::Unorm16(borrowed_or(field, v, || codes(field, v, |v| v))),
+            (Voxels::I16(v), _) => Values::Unorm16(codes(field, v, |v| v.wrapping_sub(i16::MIN) as u16).into()),
+            // Other types have no codes.
+            _ => return Self::new(field, Kept::Float),
+        };
+        if field.has_empty_range() {
+            return Self { values, scale: 1.0, offset: 0.0 };
+        }
+        Self { values, scale: (high - low) / (most - least), offset: (low - least) / (most - least) }
     }
 
     /// 16 bits over the values there are.
-    fn quantised(field: &Field) -> Self {
+    fn spread(field: &Field) -> Self {
         let [low, high] = field.extremes().map(f64::from);
         let span = if high > low { high - low } else { 1.0 };
-        let code = |x: &f32| ((f64::from(*x) - low) / span * 65535.0).round() as u16;
+        let code = |x: &f32| ((f64::from(*x) - low) / span * f64::from(u16::MAX)).round() as u16;
         let codes: Vec<u16> = field.values.par_iter().map(code).collect();
         Self { values: Values::Unorm16(codes.into()), scale: 1.0 / span, offset: -low / span }
     }
 
     pub fn format(&self) -> vk::Format {
         match self.values {
-            Values::Unorm8(_) => vk::Format::R8_UNORM,
-            Values::Unorm16(_) => vk::Format::R16_UNORM,
-            Values::Float(_) => vk::Format::R32_SFLOAT,
+            Values::Unorm8(_) => texel_format(TexelFormat::R8),
+            Values::Unorm16(_) => texel_format(TexelFormat::R16),
+            Values::Float(_) => texel_format(TexelFormat::R32f),
         }
     }
 
@@ -71,5 +84,52 @@ impl<'a> Texels<'a> {
     /// The transfer function over the texture's values.
     pub fn transfer(&self, transfer: &TransferFunction) -> TransferFunction {
         transfer.mapped(|x| self.scale * x + self.offset)
+    }
+}
+
+/// A code of 8 bits times this is the code of 16 bits for the same number: 65535 / 255.
+const WIDEN: u16 = 257;
+
+fn from_i8(value: i8) -> u8 {
+    value.wrapping_sub(i8::MIN) as u8
+}
+
+/// The code of every voxel. A missing voxel has that of the range's low end, and all have that of 0 where x is 0.
+fn codes<T: Copy + Coded, C: Copy + Default + Send + Sync>(
+    field: &Field,
+    voxels: &[T],
+    code: impl Fn(T) -> C + Sync,
+) -> Vec<C> {
+    if field.has_empty_range() {
+        return vec![C::default(); voxels.len()];
+    }
+    let low = code(T::of(field.range[0]));
+    let of = |(i, voxel): (usize, &T)| if field.missing > 0 && field.is_missing(i) { low } else { code(*voxel) };
+    voxels.par_iter().enumerate().map(of).collect()
+}
+
+/// The voxels themselves, where they are the codes.
+fn borrowed_or<'a, T: Clone>(field: &Field, voxels: &'a [T], codes: impl FnOnce() -> Vec<T>) -> Cow<'a, [T]> {
+    let as_they_are = field.missing == 0 && !field.has_empty_range();
+    if as_they_are { Cow::Borrowed(voxels) } else { Cow::Owned(codes()) }
+}
+
+/// Types of voxels that textures hold as they are.
+trait Coded: Send + Sync {
+    /// A whole number of the type's range.
+    fn of(value: f64) -> Self;
+}
+
+macro_rules! coded {
+    ($($type:ty),*) => { $(impl Coded for $type { fn of(value: f64) -> Self { value as Self } })* };
+}
+coded!(u8, i8, u16, i16);
+
+/// The Vulkan format of texels.
+pub fn texel_format(format: TexelFormat) -> vk::Format {
+    match format {
+        TexelFormat::R8 => vk::Format::R8_UNORM,
+        TexelFormat::R16 => vk::Format::R16_UNORM,
+        TexelFormat::R32f => vk::Format::R32_SFLOAT,
     }
 }

@@ -1,4 +1,4 @@
-//! Trilinear interpolation with clamp to edge on a grid whose values sit at voxel centres.
+//! Trilinear and nearest interpolation with clamp to edge on a grid whose values sit at voxel centres.
 
 use glam::DVec3;
 
@@ -19,6 +19,12 @@ pub fn trilinear(values: &[f32], dims: [usize; 3], voxel: DVec3) -> f64 {
     let along_x = |y: usize, z: usize| mix(at(x0, y, z), at(x1, y, z), wx);
     let along_y = |z: usize| mix(along_x(y0, z), along_x(y1, z), wy);
     mix(along_y(z0), along_y(z1), wz)
+}
+
+/// Value of the voxel whose centre is nearest to `voxel` (voxel space), the later one of two that are as near.
+pub fn nearest(values: &[f32], dims: [usize; 3], voxel: DVec3) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| voxel[axis].floor().clamp(0.0, dims[axis] as f64 - 1.0) as usize);
+    f64::from(values[(z * dims[1] + y) * dims[0] + x])
 }
 
 /// `a + weight * (b - a)`: exactly `a` where both are equal, so that a constant neighbourhood stays constant.

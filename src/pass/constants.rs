@@ -22,7 +22,14 @@ pub fn segment(scene: &Scene, needs: Needs) -> [Constant; 7] {
     let other_step = sampling.step != scene.transfer.reference && !sampling.spans();
     let corrected = sampling.alpha == Alpha::Exponential && (sampling.last == Last::Partial || other_step);
     [
-        ("FILTER_EXACT", u32::from(sampling.filter == Filter::Exact)),
+        (
+            "FILTER",
+            match sampling.filter {
+                Filter::Hardware => 0,
+                Filter::Exact => 1,
+                Filter::Nearest => 2,
+            },
+        ),
         ("PIECES", pieces),
         ("SEARCH", pieces.next_power_of_two() / 2),
         ("CORRECT_OPACITY", u32::from(corrected)),

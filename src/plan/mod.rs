@@ -228,8 +228,10 @@ fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], le
     if sampling.last == Last::Full {
         leave("length of the last sample", "every sample stands for a whole step".to_owned());
     }
-    if sampling.filter == Filter::Hardware {
-        leave("interpolation in the shader", "the texture unit interpolates".to_owned());
+    match sampling.filter {
+        Filter::Hardware => leave("interpolation in the shader", "the texture unit interpolates".to_owned()),
+        Filter::Nearest => leave("interpolation", "a sample has the value of the nearest voxel".to_owned()),
+        Filter::Exact => {}
     }
     if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
         let few = format!("there are no more than {} main passes", passes::BATCH);

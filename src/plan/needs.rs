@@ -15,7 +15,7 @@ pub fn needs(scene: &Scene, longest_samples: u32, passes: u32) -> Needs {
     let looks_ahead = method.name.distance().is_some() || method.name == MethodName::RcBlock;
     Needs {
         ends: may_end(scene, longest_samples, passes),
-        skips: looks_ahead && !all_interesting(&scene.field, &scene.transfer),
+        skips: looks_ahead && !all_interesting(scene),
         colors: !is_grey(&scene.transfer),
     }
 }

@@ -7,9 +7,10 @@ use serde_json::Value;
 
 use super::RawLayout;
 use crate::error::{Error, Result};
-use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, LOOKUPS, Settings, VolumeSettings};
+use crate::scene::range::RangeEnd;
+use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, LOOKUPS, PRECISIONS, Settings, VolumeSettings};
 use crate::scene::transfer::REFERENCES;
-use crate::scene::{Camera, Field, Scene, Volume, builtin};
+use crate::scene::{Camera, Field, Scene, TextureUnit, Volume, builtin};
 
 /// The volume of a scene that names none.
 const DEFAULT_VOLUME: &str = "shells:64";
@@ -111,8 +112,8 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
-    let field = Field::new(volume(settings)?, settings.volume.range, settings.volume.nan)?;
-    Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera })
+    let field = Field::of(volume(settings)?, &settings.volume.normalisation())?;
+    Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
 }
 
 /// Whether every number of the settings lies in its range, before any file is read.
@@ -192,13 +193,30 @@ pub fn check(settings: &Settings) -> Result<()> {
         method.lookups.to_string(),
         format!("give a number from {} to {}", LOOKUPS.start(), LOOKUPS.end()),
     )?;
-    let range = settings.volume.range.unwrap_or_default();
-    check(
-        range.iter().all(|r| r.is_finite()) && range[0] <= range[1],
-        "volume.range (--range)",
-        format!("{range:?}"),
-        "give two finite numbers, the low one first".into(),
-    )
+    check_volume(&settings.volume)
+}
+
+fn check_volume(volume: &VolumeSettings) -> Result<()> {
+    let upside_down = |range: &[RangeEnd; 2]| match *range {
+        [RangeEnd::Value(low), RangeEnd::Value(high)] | [RangeEnd::Percentile(low), RangeEnd::Percentile(high)] => {
+            low > high
+        }
+        _ => false,
+    };
+    let shown = |range: &[RangeEnd; 2]| format!("is [{}]", range.map(|end| end.to_string()).join(", "));
+    if let Some(range) = volume.range.filter(|range| !range.iter().all(|end| end.is_sound()) || upside_down(range)) {
+        let remedy = "give two finite numbers or percentages from 0% to 100%, the low one first";
+        return Err(Error::usage("volume.range (--range)", shown(&range), remedy));
+    }
+    if let Some(value) = volume.no_data.iter().find(|value| !value.is_finite()) {
+        let remedy = "give finite numbers; NaN and infinities stand for no value anyway";
+        return Err(Error::usage("volume.no_data (--no-data)", format!("has {value}"), remedy));
+    }
+    if !PRECISIONS.contains(&volume.precision) {
+        let remedy = format!("give a part of the scalar range from {:e} to {}", PRECISIONS.start(), PRECISIONS.end());
+        return Err(Error::usage("volume.precision (--precision)", format!("is {}", volume.precision), remedy));
+    }
+    Ok(())
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {

@@ -30,8 +30,10 @@ use rayon::prelude::*;
 
 use self::cubic::Cubic;
 use self::panel::{Medium, Segment};
+use crate::math::interpolate::nearest;
 use crate::math::ray::{ViewRays, box_interval};
-use crate::scene::{Field, TransferFunction};
+use crate::scene::settings::Filter;
+use crate::scene::{Field, Scene, TransferFunction};
 
 /// Error allowed to a ray, in opacity and in colour.
 pub const TOLERANCE: f64 = 1e-10;
@@ -46,6 +48,8 @@ const BLACK: f64 = 1e-17;
 pub struct ExactIntegrator<'a> {
     field: &'a Field,
     medium: Absorber<'a>,
+    /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
+    nearest: bool,
 }
 
 /// A transfer function as a medium that light passes through.
@@ -72,7 +76,13 @@ struct Light {
 
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
-        Self { field, medium: Absorber::new(transfer) }
+        Self { field, medium: Absorber::new(transfer), nearest: false }
+    }
+
+    /// Of a scene: its field between voxels is what its filter makes of it.
+    pub fn of(scene: &'a Scene) -> Self {
+        let nearest = scene.settings.sampling.filter == Filter::Nearest;
+        Self { nearest, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -113,7 +123,8 @@ impl<'a> ExactIntegrator<'a> {
             .collect()
     }
 
-    /// 0, the parameters at which the line meets a plane of voxel centres, and `length`, rising.
+    /// 0, the parameters at which the line meets a plane of voxel centres (and of faces between voxels, where these
+    /// matter), and `length`, rising.
     fn plane_cuts(&self, line: &Line, length: f64) -> Vec<f64> {
         let mut cuts = Vec::new();
         if !(length > 0.0 && length.is_finite()) {
@@ -129,8 +140,11 @@ impl<'a> ExactIntegrator<'a> {
             let end = origin + direction * length;
             let first = origin.min(end).ceil().clamp(0.0, last) as usize;
             let past = origin.max(end).floor().clamp(0.0, last) as usize;
-            let planes = (first..=past).map(|plane| (plane as f64 - origin) / direction);
-            cuts.extend(planes.filter(|t| *t > 0.0 && *t < length));
+            let planes = (first..=past).map(|plane| plane as f64);
+            // One face more on each side of the centres that the line passes.
+            let faces = (first.max(1) - 1..=past).filter(|_| self.nearest).map(|plane| plane as f64 + 0.5);
+            let meets = planes.chain(faces).map(|plane| (plane - origin) / direction);
+            cuts.extend(meets.filter(|t| *t > 0.0 && *t < length));
         }
         cuts.sort_unstable_by(f64::total_cmp);
         cuts
@@ -159,10 +173,28 @@ impl<'a> ExactIntegrator<'a> {
                 return;
             }
         }
+        if self.nearest {
+            let value = nearest(&self.field.values, dims, middle + 0.5);
+            return self.part([value; 8], [0.0; 3], [0.0; 3], (a, b), length, light);
+        }
         let corners: [f64; 8] = std::array::from_fn(|corner| {
             let at = |axis: usize| (low[axis] + (corner >> axis & 1)).min(dims[axis] - 1);
             f64::from(self.field.values[(at(2) * dims[1] + at(1)) * dims[0] + at(0)])
         });
+        self.part(corners, start, rise, (a, b), length, light);
+    }
+
+    /// Adds the part [a, b] of the line, on which the value is that of a cell with these `corners` (see
+    /// [`Cubic::of_cell`]).
+    fn part(
+        &self,
+        corners: [f64; 8],
+        start: [f64; 3],
+        rise: [f64; 3],
+        (a, b): (f64, f64),
+        length: f64,
+        light: &mut Light,
+    ) {
         let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
         let most = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if self.medium.transfer.visible(least, most) {

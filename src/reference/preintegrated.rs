@@ -11,7 +11,7 @@ use super::exact::Absorber;
 use crate::error::{Error, Result};
 use crate::math::interpolate::mix;
 use crate::math::opacity::corrected_opacity;
-use crate::scene::settings::{Alpha, Offset};
+use crate::scene::settings::{Alpha, Filter, Offset};
 use crate::scene::transfer::Knot;
 use crate::scene::{Scene, TransferFunction};
 
@@ -33,8 +33,8 @@ pub fn nodes(scene: &Scene) -> usize {
 /// Whether a scene may be classified by a table, where it asks for it.
 ///
 /// # Errors
-/// When it takes samples in the middle of steps, has cells without values, or a transfer function of more points than
-/// [`MOST_KNOTS`].
+/// When it takes samples in the middle of steps or those of the nearest voxels, has cells without values, or a transfer
+/// function of more points than [`MOST_KNOTS`].
 pub fn check(scene: &Scene) -> Result<()> {
     let (sampling, knots) = (&scene.settings.sampling, scene.transfer.knots().len());
     let refuse = |problem: String, remedy: &str| {
@@ -45,6 +45,10 @@ pub fn check(scene: &Scene) -> Result<()> {
         () if sampling.offset != Offset::Left => {
             refuse("takes values at both ends of a step, not in its middle".into(), "use --offset left")
         }
+        () if sampling.filter == Filter::Nearest => refuse(
+            "takes a value to go evenly from one sample to the next, and that of the nearest voxel does not".into(),
+            "use --filter hardware or exact, or --classification post",
+        ),
         () if scene.field.holes.is_some() => refuse(
             "needs values all along a ray, and this volume has cells without".into(),
             "use --nan replace, or --classification post",

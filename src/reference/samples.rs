@@ -9,7 +9,7 @@ use super::{Pixel, Twin};
 const LENGTH_ROUNDING: f64 = 2e-7;
 
 /// Places are good to 2^-22 voxels: a sample this near to the face of a cell may be on either side of it.
-const FACE_ROUNDING: f64 = 1e-6;
+pub(super) const FACE_ROUNDING: f64 = 1e-6;
 
 impl Twin<'_> {
     /// Distance between samples in volume units.

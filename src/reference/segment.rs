@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::preintegrated::{Table, part_of};
+use super::samples::FACE_ROUNDING;
 use super::{Effect, Pixel, Twin};
-use crate::math::interpolate::trilinear;
+use crate::math::interpolate::{nearest, trilinear};
 use crate::math::opacity::{composite, corrected_opacity};
-use crate::scene::settings::{Alpha, Last};
+use crate::scene::settings::{Alpha, Filter, Last};
 
 /// Three interpolations of values about 1 round to a few units of 2^-24.
 const VALUE_ROUNDING: f64 = 3e-7;
@@ -46,8 +47,26 @@ impl Twin<'_> {
     /// The scalar at `voxel`; undecided where f32 may see it on the other side of a jump.
     fn value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
         let field = &self.scene.field;
+        if self.scene.settings.sampling.filter == Filter::Nearest {
+            return self.nearest_value(pixel, voxel);
+        }
         let value = trilinear(&field.values, field.dims(), voxel);
         pixel.undecided |= self.scene.transfer.jumps().any(|x| self.may_cross(x, value, voxel));
+        value
+    }
+
+    /// The value of the voxel nearest to `voxel`; undecided where f32 may take another, or see it on the other side of a
+    /// jump.
+    fn nearest_value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
+        let field = &self.scene.field;
+        let value = nearest(&field.values, field.dims(), voxel);
+        let beside = |n: usize| {
+            let by = |axis: usize| if n >> axis & 1 == 0 { -FACE_ROUNDING } else { FACE_ROUNDING };
+            voxel + DVec3::new(by(0), by(1), by(2))
+        };
+        pixel.undecided |= (0..8).any(|n| nearest(&field.values, field.dims(), beside(n)) != value);
+        let near = |x: f64| (value - x).abs() < VALUE_ROUNDING * value.abs();
+        pixel.undecided |= self.scene.transfer.jumps().any(near);
         value
     }
 

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::volume::{Volume, VoxelType, Voxels};
+use super::range::{self, RangeEnd};
+use super::volume::{Volume, VoxelType};
 use crate::error::{Error, Result};
 
 /// What a voxel that is not a finite number stands for.
@@ -21,58 +22,97 @@ pub enum NanPolicy {
     Error,
 }
 
+/// How voxels become x.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Normalisation<'a> {
+    /// The scalar range; without, that of [`range::natural`].
+    pub range: Option<[RangeEnd; 2]>,
+    pub nan: NanPolicy,
+    /// Values that stand for no value: they are treated as NaN.
+    pub no_data: &'a [f64],
+}
+
 /// A normalised volume. Cells are the boxes between neighbouring voxel centres, (n - 1) of them along a side of
 /// n voxels (1 where n is 1); a border cell reaches out to the face of the volume.
 #[derive(Clone, Debug)]
 pub struct Field {
     /// The volume as read; a texture in its own type is made from it.
     pub volume: Volume,
-    /// The scalar range: x = (value - low) / (high - low).
+    /// The scalar range: x = (value - low) / (high - low); where both are equal, x is 0 everywhere.
     pub range: [f64; 2],
     /// Each voxel as x, x fastest. Not clamped to [0, 1].
     pub values: Vec<f32>,
     /// Cells that are transparent, whatever they hold (policy `hole`), x fastest; none otherwise.
     pub holes: Option<Vec<bool>>,
+    /// Voxels without a finite value: NaN, infinite, or no data.
+    pub missing: usize,
+    no_data: Vec<f64>,
     /// Found when first asked for.
     extremes: OnceLock<[f32; 2]>,
+    contrast: OnceLock<f64>,
 }
 
 impl Field {
+    /// The field under a range of numbers and a policy, where no value stands for no data.
+    ///
     /// # Errors
-    /// When the range is empty or not finite, or a voxel is not finite under the policy `error`.
-    pub fn new(volume: Volume, range: Option<[f64; 2]>, policy: NanPolicy) -> Result<Self> {
-        let range = match range {
-            Some(range) => range,
-            None => natural_range(&volume.voxels),
-        };
-        let [low, high] = range;
-        if !(low.is_finite() && high.is_finite() && low <= high) {
-            return Err(Error::input(
-                &volume.name,
-                format!("has the scalar range [{low}, {high}]"),
-                "give a finite range = [low, high] with low <= high",
-            ));
-        }
+    /// As [`Field::of`].
+    pub fn new(volume: Volume, range: Option<[f64; 2]>, nan: NanPolicy) -> Result<Self> {
+        let range = range.map(|ends| ends.map(RangeEnd::Value));
+        Self::of(volume, &Normalisation { range, nan, no_data: &[] })
+    }
+
+    /// # Errors
+    /// When the range is upside down or not finite, or a voxel has no value under the policy `error`.
+    pub fn of(volume: Volume, how: &Normalisation) -> Result<Self> {
+        let missing = Missing { voxel_type: volume.voxels.voxel_type(), no_data: how.no_data };
+        let range = scalar_range(&volume, how.range, &missing)?;
         let count = volume.voxels.len();
-        let bad = (0..count).into_par_iter().filter(|&i| !volume.voxels.get(i).is_finite()).count();
-        if bad > 0 && policy == NanPolicy::Error {
+        let bad = (0..count).into_par_iter().filter(|&i| missing.is(volume.voxels.get(i))).count();
+        if bad > 0 && how.nan == NanPolicy::Error {
+            let or = if how.no_data.is_empty() { "" } else { ", or no data" };
             return Err(Error::input(
                 &volume.name,
-                format!("holds {bad} voxels that are NaN or infinite"),
+                format!("holds {bad} voxels that are NaN or infinite{or}"),
                 "repair them or choose nan = \"replace\" or \"hole\"",
             ));
         }
         let mut values = Vec::new();
         if values.try_reserve_exact(count).is_err() {
-            let problem = format!("finds no memory for {count} voxels in f32");
+            let problem = format!("has {count} voxels, and there is not enough memory for them in f32");
             return Err(Error::input(&volume.name, problem, "use a smaller volume"));
         }
-        values.par_extend((0..count).into_par_iter().map(|i| normalised(volume.voxels.get(i), low, high)));
-        let mut field = Self { volume, range, values, holes: None, extremes: OnceLock::new() };
-        if bad > 0 && policy == NanPolicy::Hole {
-            field.holes = Some(field.cells_where(|corner| !field.volume.voxels.get(corner).is_finite()));
+        let x = |i: usize| {
+            let value = volume.voxels.get(i);
+            // What is infinite keeps its sign; no data has none.
+            normalised(if value.is_finite() && missing.is(value) { f64::NAN } else { value }, range)
+        };
+        values.par_extend((0..count).into_par_iter().map(x));
+        let mut field = Self {
+            range,
+            values,
+            holes: None,
+            missing: bad,
+            no_data: how.no_data.to_vec(),
+            extremes: OnceLock::new(),
+            contrast: OnceLock::new(),
+            volume,
+        };
+        if bad > 0 && how.nan == NanPolicy::Hole {
+            field.holes = Some(field.cells_where(|corner| field.is_missing(corner)));
         }
         Ok(field)
+    }
+
+    /// Whether the voxel has no finite value.
+    pub fn is_missing(&self, voxel: usize) -> bool {
+        let voxels = &self.volume.voxels;
+        Missing { voxel_type: voxels.voxel_type(), no_data: &self.no_data }.is(voxels.get(voxel))
+    }
+
+    /// Whether x is 0 everywhere, since the scalar range is a single value.
+    pub fn has_empty_range(&self) -> bool {
+        self.range[0] == self.range[1]
     }
 
     /// The least and the greatest value.
@@ -81,6 +121,26 @@ impl Field {
             let wider = |[low, high]: [f32; 2], [l, h]: [f32; 2]| [low.min(l), high.max(h)];
             let none = || [f32::INFINITY, f32::NEG_INFINITY];
             self.values.par_iter().map(|&v| [v, v]).reduce(none, wider)
+        })
+    }
+
+    /// The largest difference of x between neighbours along an axis.
+    pub fn contrast(&self) -> f64 {
+        *self.contrast.get_or_init(|| {
+            let [nx, ny, nz] = self.volume.dims;
+            let row = |y: usize, z: usize| &self.values[(z * ny + y) * nx..][..nx];
+            let largest = |a: &[f32], b: &[f32]| {
+                // In f64: the difference of two f32 may overflow.
+                a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((f64::from(*a) - f64::from(*b)).abs()))
+            };
+            let of_row = |i: usize| {
+                let (y, z) = (i % ny, i / ny);
+                let here = row(y, z);
+                let along = largest(&here[1..], here);
+                let beside = largest(row((y + 1).min(ny - 1), z), here);
+                along.max(beside).max(largest(row(y, (z + 1).min(nz - 1)), here))
+            };
+            (0..ny * nz).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
         })
     }
 
@@ -137,39 +197,60 @@ impl Field {
     }
 }
 
-/// The whole range of u8 and u16, the finite minimum and maximum of other types.
-fn natural_range(voxels: &Voxels) -> [f64; 2] {
-    match voxels.voxel_type() {
-        VoxelType::U8 => [0.0, 255.0],
-        VoxelType::U16 => [0.0, 65535.0],
-        _ => {
-            let (low, high) = (0..voxels.len())
-                .into_par_iter()
-                .map(|i| voxels.get(i))
-                .filter(|v| v.is_finite())
-                .fold(|| (f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
-                .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-            if low <= high { [low, high] } else { [0.0, 1.0] }
-        }
+/// Which values stand for none.
+struct Missing<'a> {
+    voxel_type: VoxelType,
+    no_data: &'a [f64],
+}
+
+impl Missing<'_> {
+    fn is(&self, value: f64) -> bool {
+        // A number of a header or an option has more digits than an f32 that was read.
+        let same = |no: &f64| value == *no || (self.voxel_type == VoxelType::F32 && value as f32 == *no as f32);
+        !value.is_finite() || self.no_data.iter().any(same)
     }
 }
 
-/// x of a value; where the range is a single value, that value is 0, what lies below is -1 and above 1.
-fn normalised(value: f64, low: f64, high: f64) -> f32 {
-    let value = if value.is_nan() {
-        low
-    } else if value.is_infinite() {
-        if value > 0.0 { high } else { low }
-    } else {
-        value
+fn scalar_range(volume: &Volume, range: Option<[RangeEnd; 2]>, missing: &Missing) -> Result<[f64; 2]> {
+    let has_value = |value: f64| !missing.is(value);
+    let Some(ends) = range else { return Ok(range::natural(&volume.voxels, has_value)) };
+    let percents = ends.map(|end| match end {
+        RangeEnd::Percentile(percent) => percent,
+        RangeEnd::Value(_) => 0.0,
+    });
+    let found = match ends {
+        [RangeEnd::Value(_), RangeEnd::Value(_)] => None,
+        _ => range::percentiles(&volume.voxels, has_value, percents),
     };
-    let x = if high > low {
-        // Halved first: the difference of two finite numbers may overflow, that of their halves cannot.
-        (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)
-    } else if value == low {
-        0.0
-    } else {
-        (value - low).signum()
+    let resolved = [0, 1].map(|i| match (ends[i], found) {
+        (RangeEnd::Value(value), _) => value,
+        // Where no voxel has a value the range is that of `natural`.
+        (RangeEnd::Percentile(_), found) => found.map_or(i as f64, |found| found[i]),
+    });
+    let [low, high] = resolved;
+    if low.is_finite() && high.is_finite() && low <= high {
+        return Ok(resolved);
+    }
+    let given = ends.map(|end| end.to_string()).join(", ");
+    let meant = if found.is_some() { format!(", which is {low} to {high}") } else { String::new() };
+    Err(Error::input(
+        &volume.name,
+        format!("has the scalar range [{given}]{meant}"),
+        "give a finite range = [low, high] with low <= high",
+    ))
+}
+
+/// x of a value. NaN stands for the low end.
+fn normalised(value: f64, [low, high]: [f64; 2]) -> f32 {
+    let value = match value {
+        value if value.is_nan() => low,
+        f64::INFINITY => high,
+        f64::NEG_INFINITY => low,
+        value => value,
     };
+    // Halved first: the difference of two finite numbers may overflow, that of their halves cannot. Halves of the least
+    // numbers lose digits; their differences are in no danger.
+    let half = if high - low > 1.0 { 0.5 } else { 1.0 };
+    let x = if high > low { (half * value - half * low) / (half * high - half * low) } else { 0.0 };
     x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }

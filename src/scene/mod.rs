@@ -5,7 +5,9 @@ pub mod camera;
 pub mod field;
 mod fixed;
 pub mod method;
+pub mod range;
 pub mod settings;
+pub mod texture;
 pub mod transfer;
 pub mod volume;
 
@@ -14,6 +16,7 @@ use std::sync::Arc;
 pub use camera::Camera;
 pub use field::Field;
 pub use settings::Settings;
+pub use texture::TextureUnit;
 pub use transfer::TransferFunction;
 pub use volume::Volume;
 
@@ -24,4 +27,6 @@ pub struct Scene {
     pub field: Arc<Field>,
     pub transfer: TransferFunction,
     pub camera: Camera,
+    /// What is known of the texture unit that interpolates, where the scene asks for one.
+    pub unit: TextureUnit,
 }

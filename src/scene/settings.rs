@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::camera::Camera;
-use super::field::NanPolicy;
+use super::field::{NanPolicy, Normalisation};
 use super::fixed;
 pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
+use super::range::RangeEnd;
 use super::volume::VoxelType;
 
 /// All keys of a scene file.
@@ -23,7 +24,7 @@ pub struct Settings {
     pub method: MethodSettings,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, expecting = "the section [volume]")]
 pub struct VolumeSettings {
     /// A file, relative to the scene file.
@@ -32,10 +33,13 @@ pub struct VolumeSettings {
     /// `NAME:SIZE`, see [`super::builtin`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub builtin: Option<String>,
-    /// The scalar range, in the volume's own values.
+    /// The scalar range, in the volume's own values or as percentiles of them.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
-    pub range: Option<[f64; 2]>,
+    pub range: Option<[RangeEnd; 2]>,
     pub nan: NanPolicy,
+    /// Values that stand for no value, in the volume's own unit; the policy `nan` says what becomes of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub no_data: Vec<f64>,
     /// Sizes, type and spacing of a raw file.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub dims: Option<[usize; 3]>,
@@ -44,14 +48,48 @@ pub struct VolumeSettings {
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub spacing: Option<[f64; 3]>,
     pub texture: VolumeTexture,
+    /// How far an interpolated x may be off before `texture = "auto"` takes a finer format, and a named one is warned of.
+    pub precision: f64,
 }
+
+impl VolumeSettings {
+    /// How the volume's voxels become x.
+    pub fn normalisation(&self) -> Normalisation<'_> {
+        Normalisation { range: self.range, nan: self.nan, no_data: &self.no_data }
+    }
+}
+
+impl Default for VolumeSettings {
+    fn default() -> Self {
+        Self {
+            path: None,
+            builtin: None,
+            range: None,
+            nan: NanPolicy::default(),
+            no_data: Vec::new(),
+            dims: None,
+            voxel_type: None,
+            spacing: None,
+            texture: VolumeTexture::default(),
+            precision: DEFAULT_PRECISION,
+        }
+    }
+}
+
+/// Half a code of 8 bits: what no 8-bit picture of a transfer function over the whole range shows.
+const DEFAULT_PRECISION: f64 = 1.0 / 512.0;
+
+/// Errors of x that can be asked for.
+pub const PRECISIONS: std::ops::RangeInclusive<f64> = 1e-9..=1.0;
 
 /// How voxels are kept on the device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum VolumeTexture {
-    /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.
+    /// The smallest format that loses nothing of the volume and that the device interpolates as precisely as asked.
     #[default]
+    Auto,
+    /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.
     Native,
     /// 16 bits over the values there are.
     R16,
@@ -240,6 +278,8 @@ pub enum Filter {
     Hardware,
     /// The shader, in f32.
     Exact,
+    /// Nobody: a sample has the value of the nearest voxel, as label maps need.
+    Nearest,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

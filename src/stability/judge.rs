@@ -176,13 +176,13 @@ fn rule(case: &Case, expect: &Expect, scene: &Scene, ends: bool, sub_pixel_bits:
         }
         Expect::Exact => {
             let rays = scene.camera.rays(scene.settings.image.size)?;
-            ExactIntegrator::new(&scene.field, &scene.transfer).picture(&rays, scene.settings.image.size)
+            ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size)
         }
         Expect::Sum | Expect::Refused(_) => twin.pixels,
         Expect::Nothing => each(&|_| [0.0; 4]),
         Expect::SumOf(volume) => {
             let mut other = scene.clone();
-            let field = Field::new(volume.clone(), case.settings.volume.range, case.settings.volume.nan)?;
+            let field = Field::of(volume.clone(), &case.settings.volume.normalisation())?;
             other.field = std::sync::Arc::new(field);
             self::twin(&other, ends, sub_pixel_bits)?.pixels
         }

@@ -58,10 +58,10 @@ pub fn cases() -> Vec<Case> {
             .expect(Expect::Refused("opacity from 0 to 1"), SAME_SUM),
         Case::new(GROUP, "a range of one value", "shells:24")
             .points(&[low, high])
-            .with(|s| s.volume.range = Some([7.0, 7.0])),
+            .with(|s| s.volume.range = Some([7.0, 7.0].map(Into::into))),
         Case::new(GROUP, "a range upside down", "shells:24")
             .points(&[low, high])
-            .with(|s| s.volume.range = Some([9.0, 7.0]))
+            .with(|s| s.volume.range = Some([9.0, 7.0].map(Into::into)))
             .expect(Expect::Refused("low one first"), SAME_SUM),
         Case::new(GROUP, "five hundred points", "linear:24")
             .points(&(0..500).map(|i| [f64::from(i) / 499.0, r, g, b, f64::from(i % 2) * 0.1]).collect::<Vec<_>>()),

@@ -66,14 +66,14 @@ pub fn cases() -> Vec<Case> {
             .map(|case| case.with(|s| s.volume.nan = NanPolicy::Hole).expect(Expect::Constant([0.0; 4]), SAME_SUM)),
         case("from -FLT_MAX to FLT_MAX", floats(|i| (2.0 * pattern(i) - 1.0) * greatest)),
         case("FLT_MAX beside values of the range", floats(|i| if i % 29 == 5 { greatest } else { pattern(i) }))
-            .map(|case| case.with(|s| s.volume.range = Some([0.0, 1.0]))),
+            .map(|case| case.with(|s| s.volume.range = Some([0.0, 1.0].map(Into::into)))),
         case("denormal numbers", floats(|i| pattern(i) * 1e-39)),
         case("a contrast of 1e-6 on an offset of 1e3", doubles(|i| 1e3 + 1e-6 * pattern(i))),
         case("a contrast of 1e-12 of the range", doubles(|i| pattern(i) * 1e-12))
-            .map(|case| case.with(|s| s.volume.range = Some([0.0, 1.0]))),
+            .map(|case| case.with(|s| s.volume.range = Some([0.0, 1.0].map(Into::into)))),
         own(case("signed 16 bits over their whole range", cube(Voxels::I16(signed)))),
         own(case("unsigned 16 bits on an offset of 1000", cube(Voxels::U16(unsigned))))
-            .map(|case| case.with(|s| s.volume.range = Some([1000.0, 1007.0]))),
+            .map(|case| case.with(|s| s.volume.range = Some([1000.0, 1007.0].map(Into::into)))),
         own(case("signed bytes", cube(Voxels::I8(bytes)))),
         quantised,
     ]

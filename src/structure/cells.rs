@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::blocks;
 use super::grid::Grid;
-use crate::scene::{Field, TransferFunction};
+use crate::scene::settings::Filter;
+use crate::scene::{Field, Scene, TransferFunction};
 
 /// How far interpolation may leave [min, max] by rounding, relative to the larger magnitude of both. A unit in the
 /// last place of f32 is 2^-23 at most; a few of them, of the three interpolations, fit.
@@ -103,31 +104,84 @@ pub enum Values<'a> {
 }
 
 /// One flag a cell of `grid`, x fastest: whether the transfer function is visible over its values, widened by
-/// [`ROUNDING`]. Holes are not interesting; larger cells that have some count as what those were filled with.
-/// `transfer` is over the texture's values.
-pub fn interesting(field: &Field, values: &Values, transfer: &TransferFunction, grid: &Grid) -> Vec<bool> {
-    let support = Support::of(transfer);
-    match values {
-        Values::Unorm8(codes) => of_values(field, codes, |code| f32::from(code) / 255.0, &support, grid),
-        Values::Unorm16(codes) => of_values(field, codes, |code| f32::from(code) / 65535.0, &support, grid),
-        Values::Float(values) => of_values(field, values, |value| value, &support, grid),
+/// [`ROUNDING`]; with `nearest`, over the value of any of its voxels. Holes are not interesting; larger cells that have
+/// some count as what those were filled with. `transfer` is over the texture's values.
+pub fn interesting(
+    field: &Field,
+    values: &Values,
+    transfer: &TransferFunction,
+    grid: &Grid,
+    nearest: bool,
+) -> Vec<bool> {
+    let support = &Support::of(transfer);
+    match (values, nearest) {
+        (Values::Unorm8(codes), false) => of_values(field, codes, unorm8, support, grid),
+        (Values::Unorm16(codes), false) => of_values(field, codes, unorm16, support, grid),
+        (Values::Float(values), false) => of_values(field, values, |value| value, support, grid),
+        (Values::Unorm8(codes), true) => of_voxels(field, codes, unorm8, support, grid),
+        (Values::Unorm16(codes), true) => of_voxels(field, codes, unorm16, support, grid),
+        (Values::Float(values), true) => of_voxels(field, values, |value| value, support, grid),
+    }
+}
+
+fn unorm8(code: u8) -> f32 {
+    f32::from(code) / 255.0
+}
+
+fn unorm16(code: u16) -> f32 {
+    f32::from(code) / 65535.0
+}
+
+/// Whether any voxel of a cell shows something by itself.
+fn of_voxels<T: Copy + Send + Sync>(
+    field: &Field,
+    codes: &[T],
+    value: impl Fn(T) -> f32 + Sync,
+    support: &Support,
+    grid: &Grid,
+) -> Vec<bool> {
+    let shows = |code: &T| {
+        let [low, high] = widened(value(*code), value(*code));
+        support.meets(low, high)
+    };
+    let shown: Vec<bool> = codes.par_iter().map(shows).collect();
+    let (_, ranges) = blocks::ranges_of(field.dims(), &shown, grid.cell);
+    let mut flags: Vec<bool> = ranges.into_par_iter().map(|[_, any]| any).collect();
+    leave_out_holes(field, grid, &mut flags);
+    flags
+}
+
+/// Cells that are holes are not interesting. Larger ones do not look at them.
+fn leave_out_holes(field: &Field, grid: &Grid, flags: &mut [bool]) {
+    if let Some(holes) = field.holes.as_ref().filter(|_| grid.cell == 1) {
+        flags.par_iter_mut().zip(holes).for_each(|(flag, hole)| *flag &= !hole);
     }
 }
 
 /// Whether no cell of the volume is left that shows nothing, so that there is nothing to skip. Stops at the first one.
-pub fn all_interesting(field: &Field, transfer: &TransferFunction) -> bool {
-    if field.holes.is_some() {
-        return false;
-    }
-    let support = Support::of(transfer);
+pub fn all_interesting(scene: &Scene) -> bool {
+    let (field, support) = (&scene.field, Support::of(&scene.transfer));
+    field.holes.is_none() && (0..field.cells().iter().product()).into_par_iter().all(|i| shows(scene, &support, i))
+}
+
+/// Whether any cell of the volume shows something. Stops at the first one.
+pub fn any_interesting(scene: &Scene) -> bool {
+    let (field, support) = (&scene.field, Support::of(&scene.transfer));
+    let hole = |i: usize| field.holes.as_ref().is_some_and(|holes| holes[i]);
+    (0..field.cells().iter().product()).into_par_iter().any(|i| !hole(i) && shows(scene, &support, i))
+}
+
+/// Whether anything shows among the values of cell `i`, x fastest.
+fn shows(scene: &Scene, support: &Support, i: usize) -> bool {
+    let field = &scene.field;
     let [nx, ny, _] = field.cells();
-    let shows = |i: usize| {
-        let corners = field.corners([i % nx, i / nx % ny, i / (nx * ny)]).map(|c| field.values[c]);
-        let low = corners.into_iter().fold(f32::INFINITY, f32::min);
-        let high = corners.into_iter().fold(f32::NEG_INFINITY, f32::max);
-        support.meets(low, high)
-    };
-    (0..field.cells().iter().product()).into_par_iter().all(shows)
+    let corners = field.corners([i % nx, i / nx % ny, i / (nx * ny)]).map(|c| field.values[c]);
+    if scene.settings.sampling.filter == Filter::Nearest {
+        return corners.into_iter().any(|value| support.meets(value, value));
+    }
+    let low = corners.into_iter().fold(f32::INFINITY, f32::min);
+    let high = corners.into_iter().fold(f32::NEG_INFINITY, f32::max);
+    support.meets(low, high)
 }
 
 /// `value` rises with the code.
@@ -160,9 +214,7 @@ fn of_values<T: Copy + PartialOrd + Send + Sync>(
             row_flags(support, &low, &high, value, flags);
         }
     });
-    if let Some(holes) = &field.holes {
-        flags.par_iter_mut().zip(holes).for_each(|(flag, hole)| *flag &= !hole);
-    }
+    leave_out_holes(field, grid, &mut flags);
     flags
 }
 

@@ -11,7 +11,7 @@ pub mod wide;
 
 use glam::DVec3;
 
-use crate::scene::settings::Distance;
+use crate::scene::settings::{Distance, Filter};
 use crate::scene::{Field, Scene, TransferFunction};
 use bundle::Bundles;
 use cells::Values;
@@ -24,6 +24,8 @@ pub struct Lookup {
     pub distance: Distance,
     /// Side of a cell, in voxels.
     pub cell: u32,
+    /// Samples have the value of the nearest voxel, so that a cell shows what one of its voxels shows, and nothing between.
+    pub nearest: bool,
     /// Where rays come from (volume space) and how far their directions may be off: for structures made for a view.
     pub view: Option<LookupView>,
 }
@@ -41,12 +43,14 @@ impl Lookup {
     pub fn of(scene: &Scene) -> Option<Self> {
         let method = &scene.settings.method;
         let distance = method.name.distance()?;
-        let half_angle = match distance {
-            Distance::Omni | Distance::Directional => return Some(Self { distance, cell: method.cell, view: None }),
-            Distance::Optimal => None,
-            Distance::Cone => Some(method.cone.to_radians()),
+        let nearest = scene.settings.sampling.filter == Filter::Nearest;
+        let view = |half_angle| Some(LookupView { eye: scene.camera.eye, half_angle });
+        let view = match distance {
+            Distance::Omni | Distance::Directional => None,
+            Distance::Optimal => view(None),
+            Distance::Cone => view(Some(method.cone.to_radians())),
         };
-        Some(Self { distance, cell: method.cell, view: Some(LookupView { eye: scene.camera.eye, half_angle }) })
+        Some(Self { distance, cell: method.cell, nearest, view })
     }
 }
 
@@ -54,7 +58,7 @@ impl Lookup {
 /// a texture holds them, and `transfer` is over these.
 pub fn build(field: &Field, values: &Values, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
     let grid = Grid::new(field, lookup.cell);
-    let interesting = cells::interesting(field, values, transfer, &grid);
+    let interesting = cells::interesting(field, values, transfer, &grid, lookup.nearest);
     match (lookup.distance, &lookup.view) {
         (Distance::Directional, _) => octants::directional(&grid, &interesting),
         (_, None) => distance::omni(&grid, &interesting),

@@ -5,18 +5,30 @@ use crate::pass::Step;
 use crate::pass::resource::Resource;
 use crate::structure::grid::Grid;
 
-/// `holes`: the volume has cells that stay transparent. Larger cells do not look at them.
-pub fn interesting(grid: &Grid, holes: bool) -> Step {
-    let (shader, mut reads) = match (grid.cell, holes) {
-        (1, false) => ("structure/interesting.comp:voxels", vec![("volume", Resource::Volume)]),
-        (1, true) => {
-            let reads = vec![("volume", Resource::Volume), ("holes", Resource::Holes)];
-            ("structure/interesting.comp:voxels+holes", reads)
-        }
-        _ => ("structure/interesting.comp:ranges", vec![("cell_range", Resource::CellRange)]),
+/// `holes`: the volume has cells that stay transparent. Larger cells do not look at them. `nearest`: samples have the value
+/// of the nearest voxel, and every voxel of a cell is looked at by itself.
+pub fn interesting(grid: &Grid, holes: bool, nearest: bool) -> Step {
+    let holes = holes && grid.cell == 1;
+    let shader = match (nearest, holes) {
+        (false, _) if grid.cell > 1 => "structure/interesting.comp:ranges",
+        (false, false) => "structure/interesting.comp:voxels",
+        (false, true) => "structure/interesting.comp:voxels+holes",
+        (true, false) => "structure/interesting.comp:nearest",
+        (true, true) => "structure/interesting.comp:nearest+holes",
     };
+    let mut reads = match ranges_are_read(grid, nearest) {
+        true => vec![("cell_range", Resource::CellRange)],
+        false => vec![("volume", Resource::Volume)],
+    };
+    reads.extend(holes.then_some(("holes", Resource::Holes)));
     reads.push(("support", Resource::Support));
     let writes = [("interesting", Resource::Interesting)];
     let count = words_of_bits(grid);
-    dispatch("interesting".to_owned(), shader, &reads, &writes, slice(grid, count), 32)
+    let voxels = if nearest { (grid.cell + 1).pow(3) } else { 1 };
+    dispatch("interesting".to_owned(), shader, &reads, &writes, slice(grid, count), 32 * voxels)
+}
+
+/// Whether larger cells are judged by the range of their values.
+pub fn ranges_are_read(grid: &Grid, nearest: bool) -> bool {
+    grid.cell > 1 && !nearest
 }

@@ -10,7 +10,7 @@ mod range;
 
 pub use bundle::{bundle, widen};
 pub use distance::{directional, omni};
-pub use interesting::interesting;
+use interesting::{interesting, ranges_are_read};
 pub use range::cell_range;
 
 use super::resource::{Access, Resource, Usage};
@@ -25,10 +25,7 @@ use crate::structure::grid::Grid;
 pub fn steps(field: &Field, lookup: &Lookup) -> Vec<Step> {
     let grid = Grid::new(field, lookup.cell);
     let mut steps = Vec::new();
-    if grid.cell > 1 {
-        steps.push(cell_range(&grid));
-    }
-    steps.push(interesting(&grid, field.holes.is_some()));
+    steps.extend(cells(&grid, field, lookup));
     match lookup.distance {
         Distance::Omni => steps.extend(omni(&grid, Resource::NearestDistance)),
         Distance::Directional => steps.extend(directional(&grid)),
@@ -39,6 +36,12 @@ pub fn steps(field: &Field, lookup: &Lookup) -> Vec<Step> {
         }
     }
     steps
+}
+
+/// The steps from the volume to which cells are interesting.
+pub fn cells(grid: &Grid, field: &Field, lookup: &Lookup) -> Vec<Step> {
+    let ranges = ranges_are_read(grid, lookup.nearest).then(|| cell_range(grid));
+    ranges.into_iter().chain([interesting(grid, field.holes.is_some(), lookup.nearest)]).collect()
 }
 
 /// What a step of `count` invocations knows of the grid.

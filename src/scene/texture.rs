@@ -1,0 +1,227 @@
+//! In which format a volume's voxels are kept for a device, and how far an interpolated x may then be off.
+//!
+//! A texture unit interpolates in a precision of its own: some round R8 to 8 bits after each of three steps, most have
+//! weights of 8 fractional bits. What that does to x depends on the range: where few codes of the format fill it, an
+//! error of one code is an error of much of x. So the unit is measured once, format by format, and the error is bounded
+//! for the volume at hand.
+
+use std::fmt;
+
+use super::settings::{Filter, VolumeTexture};
+use super::volume::VoxelType;
+use super::{Field, Scene};
+
+/// The formats of texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum TexelFormat {
+    /// Codes of 8 bits, read as numbers from 0 to 1.
+    R8,
+    /// Codes of 16 bits, read as numbers from 0 to 1.
+    R16,
+    R32f,
+}
+
+impl TexelFormat {
+    pub const ALL: [Self; 3] = [Self::R8, Self::R16, Self::R32f];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::R8 => "r8",
+            Self::R16 => "r16",
+            Self::R32f => "r32f",
+        }
+    }
+
+    /// Bytes of a texel.
+    pub fn bytes(self) -> usize {
+        match self {
+            Self::R8 => 1,
+            Self::R16 => 2,
+            Self::R32f => 4,
+        }
+    }
+}
+
+/// A bound of what interpolating texels between 0 and 1 may be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilterError {
+    /// Where neighbours hardly differ.
+    pub rounding: f64,
+    /// What comes to it for neighbours that differ by 1, as a unit's few bits of weights bring it.
+    pub weight: f64,
+}
+
+/// What f32 takes from a value by a dozen roundings, relative: texel to number, three interpolations, the way to the
+/// transfer function's units.
+const F32_ROUNDING: f64 = 1.0 / (1 << 21) as f64;
+
+/// Places of samples that shaders interpolate by themselves are good to so many voxels on each of three axes.
+const SHADER_PLACE: f64 = 3.0 / (1 << 22) as f64;
+
+/// Places that a texture unit is given are good to this part of the volume's side on each axis.
+const UNIT_PLACE: f64 = 1.0 / (1 << 22) as f64;
+
+/// What a device's texture unit is known to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureUnit {
+    /// The error by [`TexelFormat`]; none where the unit cannot interpolate the format.
+    pub errors: [Option<FilterError>; 3],
+    /// Whether the errors were measured on a device.
+    pub measured: bool,
+}
+
+/// Where no device is known: one that interpolates every format in f32.
+impl Default for TextureUnit {
+    fn default() -> Self {
+        Self { errors: [Some(FilterError { rounding: 0.0, weight: 0.0 }); 3], measured: false }
+    }
+}
+
+/// What of a volume stands in its texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// Codes of 8 or 16 bits as they are.
+    Stored,
+    /// Codes of 8 bits in 16: c * 257, which stands for the same number.
+    Widened,
+    /// 16 bits spread over the values there are.
+    Spread,
+    /// x in f32.
+    Float,
+}
+
+/// How a volume is kept on a device, and what that means for x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureChoice {
+    pub kept: Kept,
+    pub format: TexelFormat,
+    /// No interpolated x is farther than this from the one interpolated in exact arithmetic; infinite where there is no
+    /// such bound.
+    pub error: f64,
+}
+
+impl TextureChoice {
+    /// The choice for a scene: what its settings name, or what `auto` becomes on its texture unit.
+    pub fn of(scene: &Scene) -> Self {
+        let (field, volume) = (&*scene.field, &scene.settings.volume);
+        let filter = scene.settings.sampling.filter;
+        let choice = |kept: Kept| {
+            let format = format_of(field, kept);
+            Self { kept, format, error: error_of(field, kept, format, filter, &scene.unit) }
+        };
+        match volume.texture {
+            VolumeTexture::Native => choice(native(field)),
+            VolumeTexture::R16 => choice(Kept::Spread),
+            VolumeTexture::R32f => choice(Kept::Float),
+            VolumeTexture::Auto => {
+                let all: Vec<Self> = lossless(field).iter().map(|kept| choice(*kept)).collect();
+                let least = all.iter().map(|choice| choice.error).fold(f64::INFINITY, f64::min);
+                // Where none is precise enough, the smallest that is not much worse than the best.
+                let enough = volume.precision.max(NOT_MUCH_WORSE * least);
+                let first = all.iter().find(|choice| choice.error <= enough);
+                *first.unwrap_or(&all[all.len() - 1])
+            }
+        }
+    }
+
+    /// `r16, 8 bits widened`.
+    pub fn name(&self) -> String {
+        let how = match self.kept {
+            Kept::Stored => "as stored",
+            Kept::Widened => "8 bits widened",
+            Kept::Spread => "spread over the values",
+            Kept::Float => "x itself",
+        };
+        format!("{}, {how}", self.format.name())
+    }
+
+    /// The error in words.
+    pub fn error_in_words(&self) -> String {
+        Within(self.error).to_string()
+    }
+}
+
+/// A bound as tables and plans show it.
+pub struct Within(pub f64);
+
+impl fmt::Display for Within {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.0.is_finite() { write!(f, "{:.1e}", self.0) } else { f.write_str("no bound") }
+    }
+}
+
+/// An error that is so many times as large costs less than a format of twice the bytes.
+const NOT_MUCH_WORSE: f64 = 2.0;
+
+/// The format that `native` stands for. Codes cannot stand for a volume whose missing voxels became a number that is
+/// none of its type.
+fn native(field: &Field) -> Kept {
+    let coded = codes(field.volume.voxels.voxel_type()).is_some();
+    let [low, _] = field.range;
+    let replaceable =
+        || low.fract() == 0.0 && code_span(field).is_some_and(|[least, most]| least <= low && low <= most);
+    if coded && (field.missing == 0 || replaceable()) { Kept::Stored } else { Kept::Float }
+}
+
+/// What loses nothing of the volume, the smallest first.
+fn lossless(field: &Field) -> Vec<Kept> {
+    match (native(field), codes(field.volume.voxels.voxel_type())) {
+        (Kept::Stored, Some(TexelFormat::R8)) => vec![Kept::Stored, Kept::Widened, Kept::Spread, Kept::Float],
+        (Kept::Stored, _) => vec![Kept::Stored, Kept::Spread, Kept::Float],
+        _ => vec![Kept::Float],
+    }
+}
+
+/// The format of a type's own codes.
+fn codes(voxel_type: VoxelType) -> Option<TexelFormat> {
+    match voxel_type {
+        VoxelType::U8 | VoxelType::I8 => Some(TexelFormat::R8),
+        VoxelType::U16 | VoxelType::I16 => Some(TexelFormat::R16),
+        _ => None,
+    }
+}
+
+/// The values that the least and the greatest code of the volume's type stand for.
+pub fn code_span(field: &Field) -> Option<[f64; 2]> {
+    match field.volume.voxels.voxel_type() {
+        VoxelType::U8 => Some([0.0, f64::from(u8::MAX)]),
+        VoxelType::I8 => Some([f64::from(i8::MIN), f64::from(i8::MAX)]),
+        VoxelType::U16 => Some([0.0, f64::from(u16::MAX)]),
+        VoxelType::I16 => Some([f64::from(i16::MIN), f64::from(i16::MAX)]),
+        _ => None,
+    }
+}
+
+fn format_of(field: &Field, kept: Kept) -> TexelFormat {
+    match kept {
+        Kept::Stored => codes(field.volume.voxels.voxel_type()).unwrap_or(TexelFormat::R32f),
+        Kept::Widened | Kept::Spread => TexelFormat::R16,
+        Kept::Float => TexelFormat::R32f,
+    }
+}
+
+/// A bound of the error of an interpolated x.
+fn error_of(field: &Field, kept: Kept, format: TexelFormat, filter: Filter, unit: &TextureUnit) -> f64 {
+    // x is 0 in every texel.
+    if field.has_empty_range() {
+        return 0.0;
+    }
+    let [low, high] = field.extremes().map(f64::from);
+    // How much of x a texel's numbers from 0 to 1 span, and what making them lost of it.
+    let (span, made) = match (kept, code_span(field)) {
+        (Kept::Stored | Kept::Widened, Some([least, most])) => {
+            ((most - least) / (field.range[1] - field.range[0]), 0.0)
+        }
+        (Kept::Spread, _) => (high - low, (high - low) * 0.5 / f64::from(u16::MAX)),
+        _ => (low.abs().max(high.abs()), 0.0),
+    };
+    let side = field.dims().into_iter().max().unwrap_or(1) as f64;
+    let (rounding, weight) = match (filter, unit.errors[format as usize]) {
+        (Filter::Nearest, _) => (0.0, 0.0),
+        (Filter::Exact, _) => (0.0, SHADER_PLACE),
+        (Filter::Hardware, Some(unit)) => (unit.rounding, unit.weight + 3.0 * UNIT_PLACE * side),
+        (Filter::Hardware, None) => return f64::INFINITY,
+    };
+    let error = made + (rounding + F32_ROUNDING) * span + if weight > 0.0 { weight * field.contrast() } else { 0.0 };
+    if error.is_nan() { f64::INFINITY } else { error }
+}
