@@ -192,7 +192,7 @@ fn shader_code_a_scene_does_not_need_is_left_out() {
     for (what, constant_name, alter) in [
         ("opacity correction", "CORRECT_OPACITY", (|s| s.sampling.step = 0.5) as fn(&mut Settings)),
         ("length of the last sample", "LAST_PARTIAL", |s| s.sampling.last = Last::Partial),
-        ("interpolation in the shader", "FILTER_EXACT", |s| s.sampling.filter = Filter::Exact),
+        ("interpolation in the shader", "FILTER", |s| s.sampling.filter = Filter::Exact),
     ] {
         let plain = settings(MethodName::Rc);
         let mut needy = plain.clone();

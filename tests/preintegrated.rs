@@ -82,7 +82,7 @@ fn what_shows_nothing_shows_nothing_in_the_table() {
 
 #[test]
 fn values_beyond_the_transfer_function_are_on_the_axes() {
-    let scene = scene("linear", |s| s.volume.range = Some([0.2, 0.6]));
+    let scene = scene("linear", |s| s.volume.range = Some([0.2, 0.6].map(Into::into)));
     let table = Table::new(&scene);
     let low = scene.field.values.iter().copied().fold(f32::INFINITY, f32::min);
     let high = scene.field.values.iter().copied().fold(f32::NEG_INFINITY, f32::max);

@@ -139,7 +139,7 @@ fn values_out_of_range_are_named_with_their_key() {
     refused(|s| s.camera.fov_y = 180.0, "camera", "180");
     refused(|s| s.transfer.reference = 0.0, "transfer.reference", "is 0");
     refused(|s| s.transfer.preset = Some("ram".into()), "transfer.preset", "did you mean `ramp`?");
-    refused(|s| s.volume.range = Some([1.0, 0.0]), "volume.range", "[1.0, 0.0]");
+    refused(|s| s.volume.range = Some([1.0, 0.0].map(Into::into)), "volume.range", "[1, 0]");
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn specialization_constants_have_their_names_and_ids() {
     let named = |list: &[(&str, u32)]| list.iter().map(|(name, id)| (name.to_string(), *id)).collect::<Vec<_>>();
     let main = named(&[
         ("SAMPLES_PER_PASS", 0),
-        ("FILTER_EXACT", 1),
+        ("FILTER", 1),
         ("PIECES", 2),
         ("SEARCH", 3),
         ("CORRECT_OPACITY", 4),

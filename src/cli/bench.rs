@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::open::DeviceOptions;
 use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
-use super::output::{Progress, settings_in};
+use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::frame::Verdict;
 use crate::measure::comparison::groups;
@@ -213,6 +213,7 @@ impl Bench {
         let report = self.output.join("report.html");
         write_atomically(&report, report_html(&input)?.as_bytes())?;
         let verdict = verdict(&groups(&results.runs));
+        output::warn(&results.runs);
         let text = format!("{}\n{verdict}\n\nReport: {}\n", table::table(&results.runs), report.display());
         write::write_standard_output(text.as_bytes())?;
         match broken.first() {

@@ -12,6 +12,7 @@ use crate::frame::{SelfCheck, self_check};
 use crate::measure::record::FORMAT;
 use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::scene::settings::MethodName;
+use crate::scene::texture::{FilterError, TexelFormat};
 use crate::vulkan::{Device, DeviceInfo, Instance, pick};
 
 /// Devices, features, queues, and which --cull works
@@ -117,5 +118,14 @@ fn describe(text: &mut String, info: &DeviceInfo, check: Option<&SelfCheck>) {
     }
     if let Some(form) = check.automatic(MethodName::NnOmni) {
         let _ = writeln!(text, "  --cull auto: {}", form.name());
+    }
+    for format in TexelFormat::ALL {
+        let name = format.name();
+        let _ = match check.unit.errors[format as usize] {
+            Some(FilterError { rounding, weight }) => {
+                writeln!(text, "  interpolates {name:<4} within {rounding:.1e} + {weight:.1e} x contrast")
+            }
+            None => writeln!(text, "  cannot interpolate {name}"),
+        };
     }
 }

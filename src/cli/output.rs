@@ -1,5 +1,6 @@
 //! Where commands write: files and standard output, checked before any work is done for nothing.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -7,7 +8,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::measure::write::{check_file, is_standard_output, write_standard_output};
+use crate::measure::Run;
+use crate::measure::write::{check_file, is_standard_output, write_standard_error, write_standard_output};
 use crate::measure::write_atomically;
 use crate::scene::Settings;
 
@@ -59,6 +61,16 @@ fn seen_from(folder: &Path, file: &Path) -> Option<PathBuf> {
     let up = from.components().skip(shared).map(|_| Path::new("..").as_os_str());
     let down = to.components().skip(shared).map(|c| c.as_os_str());
     Some(up.chain(down).collect())
+}
+
+/// Says what may make the runs' pictures mislead, on standard error, each thing once.
+pub fn warn(runs: &[Run]) {
+    let mut said = BTreeSet::new();
+    for run in runs {
+        for warning in run.warnings.iter().filter(|warning| said.insert((&run.scene, *warning))) {
+            write_standard_error(&format!("warning: {}: {}\n", run.scene, warning));
+        }
+    }
 }
 
 /// What is being done, on a terminal; nothing on a pipe. Gone when dropped.

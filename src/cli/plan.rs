@@ -9,7 +9,8 @@ use super::options::{MethodOptions, SceneOptions, scene_name};
 use super::output;
 use crate::error::Result;
 use crate::frame::bytes::bytes;
-use crate::measure::write::{is_standard_output, write_standard_output};
+use crate::measure::record::TextureRecord;
+use crate::measure::write::{is_standard_output, write_standard_error, write_standard_output};
 use crate::pass::resource::Resource;
 use crate::plan::{self, LeftOut};
 use crate::read;
@@ -18,7 +19,8 @@ use crate::scene::settings::MethodName;
 
 /// The passes a scene needs, and what is left out; needs no GPU
 ///
-/// `--cull auto` and `--mark auto` stand for the papers' own forms here, since no device is asked.
+/// `--cull auto` and `--mark auto` stand for the papers' own forms here, and `--texture auto` for a device that interpolates
+/// in single precision, since no device is asked.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap plan fuel.nrrd --method rc-block
@@ -58,6 +60,9 @@ struct PlanJson<'a> {
     /// Of all resources whose bytes are known.
     bytes: u64,
     left_out: &'a [LeftOut],
+    /// How the volume is kept, where it is read, with bounds of the errors of x and of a channel.
+    texture: Option<TextureRecord>,
+    warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -86,8 +91,12 @@ impl Plan {
         let scene = read::scene(&settings)?;
         let form = plan::form(&scene, plan::papers_form(settings.method.name))?;
         let plan = plan::plan(&scene, form)?;
+        let warnings = plan::warnings(&scene, &plan);
+        for warning in &warnings {
+            write_standard_error(&format!("warning: {}: {warning}\n", scene_name(&settings)));
+        }
         if let Some(file) = &self.json {
-            output::write_json(file, &to_json(&scene, &plan))?;
+            output::write_json(file, &to_json(&scene, &plan, warnings))?;
             if is_standard_output(file) {
                 return Ok(());
             }
@@ -118,7 +127,7 @@ fn text(scene: &Scene, plan: &plan::Plan) -> String {
     text
 }
 
-fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
+fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> PlanJson<'a> {
     let names = |step: &crate::pass::Step, writes: bool| {
         step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
     };
@@ -156,5 +165,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan) -> PlanJson<'a> {
         resources: resources.iter().map(json).collect(),
         bytes: resources.iter().filter_map(|(_, bytes)| *bytes).sum(),
         left_out: &plan.left_out,
+        texture: TextureRecord::of(plan),
+        warnings,
     }
 }

@@ -13,6 +13,7 @@ pub mod schedule;
 pub mod self_check;
 pub mod structures;
 pub mod texture;
+pub mod texture_unit;
 mod upload;
 
 pub use background::{Background, Served};

@@ -9,6 +9,7 @@ use super::cpu::{self, Counts};
 use super::gpu::{GpuFrame, Measure};
 use super::resident::Resident;
 use super::structures::Structures;
+use super::texture_unit;
 use crate::error::Result;
 use crate::pass::cull::Form;
 use crate::plan;
@@ -37,6 +38,8 @@ pub struct SelfCheck {
     pub forms: BTreeMap<Form, Verdict>,
     /// Why its count of shader invocations is not believed; none where it is.
     pub statistics: Option<String>,
+    /// How precisely its texture unit interpolates.
+    pub unit: TextureUnit,
 }
 
 impl SelfCheck {
@@ -124,7 +127,8 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
             }
         }
     }
-    Ok(SelfCheck { forms: found, statistics })
+    let unit = texture_unit::measure(device, &mut resident.pipelines)?;
+    Ok(SelfCheck { forms: found, statistics, unit })
 }
 
 /// A small scene with empty space, seen through many main passes.

@@ -39,6 +39,8 @@
 //! | `left_out` | array of {`what`, `why`} | what the scene did not need |
 //! | `plan` | array of text | the frame's steps, one a line |
 //! | `notes` | array of text | what a reader of the numbers should know |
+//! | `warnings` | array of text | what may make the picture mislead: empty, imprecise, reoriented |
+//! | `texture` | texture or null | how the volume was kept on the device: see [`TextureRecord`]; null for `cpu` and where no ray meets the volume |
 //! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
 //! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
@@ -57,7 +59,9 @@ use super::orbit::OrbitFrame;
 use super::saving::Saved;
 use super::timing::{HostTimes, Timings};
 use crate::error::{Error, Result};
+use crate::plan::Plan;
 use crate::scene::Settings;
+use crate::scene::texture::TextureChoice;
 
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;
@@ -93,6 +97,12 @@ pub struct Run {
     pub left_out: Vec<LeftOut>,
     pub plan: Vec<String>,
     pub notes: Vec<String>,
+    /// What may make the picture mislead.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+    /// How the volume was kept on the device.
+    #[serde(default)]
+    pub texture: Option<TextureRecord>,
     /// Frames of a camera that goes around the volume.
     #[serde(default)]
     pub orbit: Option<Vec<OrbitFrame>>,
@@ -165,6 +175,30 @@ mod null_is_infinite {
 
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}
+
+/// How a volume is kept on a device, and what that means for the picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TextureRecord {
+    /// Format and how voxels stand in it.
+    pub format: String,
+    /// A bound of the error of an interpolated x, as a part of the scalar range; `null` where there is none.
+    #[serde(with = "null_is_infinite")]
+    pub x_error: f64,
+    /// A bound of what that changes of a channel, premultiplied and linear.
+    pub pixel_error: f64,
+}
+
+impl TextureRecord {
+    /// Of a plan that reads the volume.
+    pub fn of(plan: &Plan) -> Option<Self> {
+        let of = |texture: TextureChoice| Self {
+            format: texture.name(),
+            x_error: texture.error,
+            pixel_error: plan.pixel_error,
+        };
+        plan.texture.map(of)
     }
 }
 

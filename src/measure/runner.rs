@@ -9,7 +9,7 @@ use super::error::compare;
 use super::frame_times::{gpu_times, host_times, pass_times};
 use super::limits;
 use super::picture::Picture;
-use super::record::{Counts, FORMAT, Ideal, LeftOut, Run};
+use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
 use crate::error::{Error, Result};
@@ -20,6 +20,7 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
+use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings, Settings};
 use crate::vulkan::Device;
 
@@ -81,7 +82,8 @@ struct Entry {
 }
 
 impl<'a> Runner<'a> {
-    pub fn new(checked: Option<&'a Checked>, scene: Scene, name: String) -> Self {
+    pub fn new(checked: Option<&'a Checked>, mut scene: Scene, name: String) -> Self {
+        scene.unit = checked.map_or(scene.unit, |checked| checked.check.unit);
         Self {
             checked,
             scene,
@@ -248,6 +250,8 @@ impl<'a> Runner<'a> {
                 .collect(),
             plan: entry.plan.lines(),
             notes: self.notes(&entry),
+            warnings: warnings(&entry),
+            texture: TextureRecord::of(&entry.plan),
             orbit: None,
             saved: None,
             settings: entry.scene.settings.clone(),
@@ -258,7 +262,7 @@ impl<'a> Runner<'a> {
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes = reading(&entry.scene);
         if let Some(check) = self.checked.map(|c| &c.check).filter(|_| entry.frame.is_some()) {
             if let Some(why) = &check.statistics {
                 notes.push(format!("shader invocations are not given: {why}"));
@@ -294,6 +298,48 @@ impl<'a> Runner<'a> {
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
     }
+}
+
+/// What was done to the volume before it was drawn.
+fn reading(scene: &Scene) -> Vec<String> {
+    let mut notes = scene.field.volume.notes.clone();
+    let ([low, high], asked) = (scene.field.range, scene.settings.volume.range);
+    if let Some(ends) = asked.filter(|ends| ends.iter().any(|end| matches!(end, RangeEnd::Percentile(_)))) {
+        notes.push(format!("the scalar range {} to {} is {low} to {high}", ends[0], ends[1]));
+    }
+    if scene.field.missing > 0 {
+        let becomes = match scene.field.holes {
+            Some(_) => "cells with one are transparent",
+            None => "NaN, no data and -inf stand for the low end of the range, +inf for the high end",
+        };
+        notes.push(format!("{} voxels have no finite value: {becomes}", scene.field.missing));
+    }
+    notes
+}
+
+/// What may make a run's picture mislead.
+fn warnings(entry: &Entry) -> Vec<String> {
+    let (scene, settings) = (&entry.scene, &entry.scene.settings);
+    let mut warnings = plan::warnings(scene, &entry.plan);
+    let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
+    if !known_empty && entry.picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
+        warnings.push(
+            "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step"
+                .to_owned(),
+        );
+    }
+    let background = settings.image.background.iter().any(|c| *c != 0.0);
+    if background && entry.plan.steps.iter().any(|step| step.accesses.iter().any(|a| a.resource == Resource::Stored)) {
+        let left = 100.0 * (1.0 - settings.sampling.termination);
+        if left > 0.0 {
+            warnings.push(format!(
+                "rays end at an opacity above {}, so that up to {left:.3} % of the background stays in what is opaque; \
+                 --termination 1 ends none early",
+                settings.sampling.termination
+            ));
+        }
+    }
+    warnings
 }
 
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,

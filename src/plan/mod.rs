@@ -3,10 +3,13 @@
 pub mod longest;
 mod needs;
 mod passes;
+mod precision;
 mod text;
 mod view;
+mod warnings;
 
 pub use view::{Region, View};
+pub use warnings::warnings;
 
 use std::collections::BTreeSet;
 
@@ -17,6 +20,7 @@ use crate::pass::{Needs, Step, Work};
 use crate::reference::section::most_sections;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Cull, DepthFormat, Filter, Formats, Last, Mark, MethodName};
+use crate::scene::texture::TextureChoice;
 use crate::structure::Lookup;
 
 /// The frame of one scene, ready to be run.
@@ -29,6 +33,10 @@ pub struct Plan {
     pub form: Option<Form>,
     /// The distances that the steps look up, where they do.
     pub distance: Option<Lookup>,
+    /// How the volume is kept for the steps; none where none reads it on a device.
+    pub texture: Option<TextureChoice>,
+    /// A bound of what that changes of a channel, premultiplied and linear, against exact interpolation.
+    pub pixel_error: f64,
     pub steps: Vec<Step>,
     pub left_out: Vec<LeftOut>,
 }
@@ -168,7 +176,11 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
         }
     }
     let distance = Lookup::of(scene).filter(|_| passes > 0 && needs.skips);
-    Ok(Plan { view, passes, form, distance, steps, left_out })
+    let on_device = scene.settings.method.name != MethodName::Cpu;
+    let texture = (on_device && passes > 0).then(|| TextureChoice::of(scene));
+    let error = texture.map_or(0.0, |texture| texture.error);
+    let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, needs.ends);
+    Ok(Plan { view, passes, form, distance, texture, pixel_error, steps, left_out })
 }
 
 /// Samples on the diagonal of the volume, the longest ray of any view.

@@ -3,12 +3,18 @@
 use super::Plan;
 use crate::pass::resource::{Access, Usage};
 use crate::pass::{Step, Work};
+use crate::scene::texture::Within;
 
 impl Plan {
-    /// One line a step: number, name, queue, what it reads -> what it writes; then what was left out.
+    /// One line a step: number, name, queue, what it reads -> what it writes; then how the volume is kept, and what was
+    /// left out.
     pub fn lines(&self) -> Vec<String> {
         let mut lines: Vec<String> =
             self.steps.iter().enumerate().map(|(i, step)| format!("{:>3} {}", i + 1, line(step))).collect();
+        lines.extend(self.texture.map(|texture| {
+            let (name, x, pixels) = (texture.name(), Within(texture.error), Within(self.pixel_error));
+            format!("  = volume kept as {name}: x within {x}, pixels within {pixels}")
+        }));
         lines.extend(self.left_out.iter().map(|l| format!("  - {} left out: {}", l.what, l.why)));
         lines
     }

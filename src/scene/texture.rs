@@ -134,11 +134,6 @@ impl TextureChoice {
         };
         format!("{}, {how}", self.format.name())
     }
-
-    /// The error in words.
-    pub fn error_in_words(&self) -> String {
-        Within(self.error).to_string()
-    }
 }
 
 /// A bound as tables and plans show it.

@@ -1,5 +1,7 @@
 //! One scene of the report: pictures, table, plots, plan, settings.
 
+use std::collections::BTreeSet;
+
 use super::ReportInput;
 use super::html::{Html, escape};
 use crate::error::{Error, Result};
@@ -9,6 +11,7 @@ use crate::measure::number::bytes;
 use crate::measure::orbit::{OrbitFrame, Summary};
 use crate::measure::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
 use crate::measure::record::Run;
+use crate::scene::texture::Within;
 
 /// # Errors
 /// When a picture or a plot cannot be made.
@@ -16,6 +19,7 @@ pub fn section(page: &mut Html, group: &Group, sweep: Option<&Sweep>, input: &Re
     page.raw("<section>\n");
     page.tag("h2", &group.first().scene);
     page.raw(&format!("<p class=\"sub\">{}</p>\n", escape(&group.subtitle())));
+    warnings(page, group);
     pictures(page, group, input)?;
     page.grid(&Grid::of(group));
     if let Some(svg) = fragments_svg(group)? {
@@ -59,6 +63,16 @@ pub fn section(page: &mut Html, group: &Group, sweep: Option<&Sweep>, input: &Re
     }
     page.raw("</section>\n");
     Ok(())
+}
+
+/// What may make the pictures mislead, each thing once.
+fn warnings(page: &mut Html, group: &Group) {
+    let mut said = BTreeSet::new();
+    for (_, run) in &group.runs {
+        for warning in run.warnings.iter().filter(|warning| said.insert(*warning)) {
+            page.raw(&format!("<p class=\"warning\">Warning: {}.</p>\n", escape(warning)));
+        }
+    }
 }
 
 /// The orbit by each method in a line, and frame by frame.
@@ -133,6 +147,13 @@ fn detail(page: &mut Html, run: &Run) {
         let equal = if error.rmse == 0.0 { "infinite: the pictures are equal" } else { "undefined" };
         page.fact("PSNR", &error.psnr.map_or_else(|| equal.to_string(), |db| format!("{db:.1} dB")));
         page.fact("Pixels left out of the largest", &error.undecided.to_string());
+        page.raw("</dl>\n");
+    }
+    if let Some(texture) = &run.texture {
+        page.raw("<h4>Volume on the device</h4>\n<dl class=\"facts\">\n");
+        page.fact("Kept as", &texture.format);
+        page.fact("An interpolated x is off by at most", &Within(texture.x_error).to_string());
+        page.fact("A channel of a pixel is off by at most", &Within(texture.pixel_error).to_string());
         page.raw("</dl>\n");
     }
     page.raw("<h4>Memory</h4>\n<dl class=\"facts\">\n");

@@ -69,7 +69,7 @@ fn self_check_finds_what_is_known_of_the_driver(device: &Arc<Device>) {
 /// An opaque volume far longer than what is seen of it.
 fn deep() -> Scene {
     scene("constant:64", "linear", |s| {
-        s.volume.range = Some([0.0, 1.0]);
+        s.volume.range = Some([0.0, 1.0].map(Into::into));
         (s.image.size, s.sampling.samples_per_pass) = ([60, 50], 1);
     })
 }

@@ -1,0 +1,61 @@
+//! How far a picture may be from that of exact interpolation: a bound from the error of x.
+//!
+//! Two rays whose samples differ by a little differ by what each sample adds, seen through what lies in front of it. With
+//! c the colours, a the opacities of one ray and c', a' those of the other, what lies behind a sample in B:
+//! |difference| <= sum of T |c a - c' a' - (a - a') B| <= sum of T (brightest |a - a'| + a' |c - c'|), where T, the light
+//! that comes through, is at most 1 and T a' adds up to at most 1.
+
+use crate::reference::fused::blend_rounding;
+use crate::scene::Scene;
+use crate::scene::settings::{Alpha, Last};
+use crate::scene::transfer::Knot;
+
+/// What f32 takes from a sum by each sample.
+const SAMPLE_ROUNDING: f64 = 1e-6;
+
+/// A bound of the difference of a channel, premultiplied and linear, between the picture of rays of so many `samples` in
+/// so many `passes`, whose x is off by at most `error`, and that of exact interpolation. `ends`: rays may end early.
+pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: bool) -> f64 {
+    let sampling = &scene.settings.sampling;
+    let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
+    if error == 0.0 || !error.is_finite() {
+        return if error == 0.0 { 0.0 } else { brightest };
+    }
+    let opacity = corrected(scene, change(scene, error, |knot| knot.opacity));
+    let color = (0..3).map(|c| change(scene, error, |knot| knot.color[c])).fold(0.0, f64::max);
+    // One ray may end a pass before the other.
+    let ended = if ends { 1.0 - sampling.termination } else { 0.0 };
+    let rounding = f64::from(samples) * SAMPLE_ROUNDING
+        + 2.0 * f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate));
+    (brightest * (f64::from(samples) * opacity + ended) + color + brightest * rounding).min(brightest)
+}
+
+/// The most that a part of the transfer function changes over so much of x, among the values there are.
+fn change(scene: &Scene, error: f64, of: impl Fn(&Knot) -> f64) -> f64 {
+    let [low, high] = scene.field.extremes().map(f64::from);
+    let met = |pair: &&[Knot]| pair[0].x <= high + error && low - error <= pair[1].x;
+    let pairs = || scene.transfer.knots().windows(2).filter(met);
+    let rise = |pair: &[Knot]| (of(&pair[1]) - of(&pair[0])).abs();
+    let steepest = pairs().filter(|pair| pair[0].x < pair[1].x).map(|pair| rise(pair) / (pair[1].x - pair[0].x));
+    let jumps: f64 = pairs().filter(|pair| pair[0].x == pair[1].x).map(rise).sum();
+    let all: f64 = pairs().map(rise).sum();
+    (steepest.fold(0.0, f64::max) * error + jumps).min(all)
+}
+
+/// What a change of the opacity for the reference length is for a sample.
+fn corrected(scene: &Scene, change: f64) -> f64 {
+    let sampling = &scene.settings.sampling;
+    if sampling.alpha == Alpha::Paper || change == 0.0 {
+        return change.min(1.0);
+    }
+    let exponent = sampling.step / scene.transfer.reference;
+    let least_clear = 1.0 - scene.transfer.knots().iter().map(|k| k.opacity).fold(0.0, f64::max);
+    // The steepest rise of 1 - (1 - a)^t over a, for every exponent t up to that of a whole step.
+    let shorter = change * exponent.max(1.0) / least_clear;
+    let whole = match exponent {
+        exponent if exponent >= 1.0 => exponent * change,
+        exponent => change.powf(exponent).min(exponent * least_clear.powf(exponent - 1.0) * change),
+    };
+    let any_length = sampling.last == Last::Partial || sampling.spans();
+    (if any_length { whole.max(shorter) } else { whole }).min(1.0)
+}
