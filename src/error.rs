@@ -1,5 +1,35 @@
 //! The one error type: which input, what is wrong with it, and what to do.
 
+/// The longest line of a message that is shown, in characters: lists of devices and keys stay whole, a kilobyte of
+/// somebody's file does not.
+const LONGEST_LINE: usize = 1000;
+
+/// The most lines of a message that are shown: those of a compiler.
+const MOST_LINES: usize = 40;
+
+/// Text for a terminal: characters that steer one are escaped, and what is too long ends in an ellipsis.
+pub fn shown(text: &str) -> String {
+    let line = |line: &str| {
+        let mut out = String::new();
+        for (i, c) in line.chars().enumerate() {
+            if i == LONGEST_LINE {
+                out.push('\u{2026}');
+                break;
+            }
+            if steers(c) { out.extend(c.escape_default()) } else { out.push(c) }
+        }
+        out
+    };
+    text.split('\n').take(MOST_LINES).map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Whether a character does something else than show: controls, and those that turn the direction of writing or break a
+/// line.
+fn steers(c: char) -> bool {
+    let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
 /// What kind of thing failed; decides the exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -52,7 +82,8 @@ impl Error {
     }
 
     fn new(kind: Kind, input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self { kind, input: input.to_string(), problem: problem.to_string(), remedy: remedy.to_string() }
+        let [input, problem, remedy] = [input.to_string(), problem.to_string(), remedy.to_string()].map(|t| shown(&t));
+        Self { kind, input, problem, remedy }
     }
 
     pub fn exit_code(&self) -> u8 {

@@ -70,18 +70,30 @@ fn index_picks_that_device() {
 #[test]
 fn part_of_the_name_picks_in_any_case() {
     assert_eq!(picked(Some("LLVM")), (0, "its name contains \"LLVM\"".to_owned()));
-    assert_eq!(picked(Some("geforce")), (3, "the best of 3 devices whose name contains \"geforce\"".to_owned()));
-    // No index, so a part of a name.
-    assert_eq!(picked(Some("4090")).0, 3);
+    assert_eq!(picked(Some(" arc a380 ")), (1, "that is its name".to_owned()));
+}
+
+#[test]
+fn a_number_is_an_index_and_nothing_else() {
+    refused(&desk(), Some("4090"), &["no device has that index", "0 llvmpipe"]);
+    refused(&desk()[1..2], Some("3"), &["no device has that index", "1 Arc A380"]);
+    refused(&desk(), Some("99999999999999999999999"), &["no device has that index"]);
+}
+
+#[test]
+fn a_name_that_fits_several_devices_is_refused() {
+    refused(&desk(), Some("geforce"), &["3 devices have that in their name", "3 GeForce 4090", "by its index"]);
+    // Two have the whole name.
+    refused(&desk(), Some("GeForce 4090"), &["2 devices have that in their name"]);
 }
 
 #[test]
 fn refusal_lists_what_is_there_and_why_it_is_out() {
     let list = ["0 llvmpipe", "1 Arc A380", "2 GeForce 6800 (unusable: speaks Vulkan 1.0, 1.3 is needed)"];
-    refused(&desk(), Some("Radeon"), &[&list[..], &["device \"Radeon\"", "no device has that index or name"]].concat());
+    refused(&desk(), Some("Radeon"), &[&list[..], &["device \"Radeon\"", "no device has that name"]].concat());
     refused(&desk(), Some("2"), &[&list[..], &["that device cannot be used", "choose another"]].concat());
-    refused(&desk(), Some("6800"), &["that device cannot be used"]);
-    refused(&desk(), Some("  "), &["no device has that index or name"]);
+    refused(&desk(), Some("force 6800"), &["that device cannot be used"]);
+    refused(&desk(), Some("  "), &["no device has that name"]);
     refused(&desk()[2..3], None, &["no usable device", "install a Vulkan 1.3 driver"]);
     refused(&[], None, &["no device found", "install a driver"]);
 }

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::error::Result;
+use crate::error::{Result, shown};
 use crate::measure::write::write_standard_error;
 
 /// A raw Vulkan volume renderer and bench for depth-bounds culling
@@ -79,7 +79,17 @@ enum Command {
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let text = error.render().to_string();
+            if !error.use_stderr() || shown(&text) == text {
+                error.exit();
+            }
+            write_standard_error(&shown(&text));
+            return ExitCode::from(2);
+        }
+    };
     let result = match cli.command {
         Command::Render(command) => command.run(),
         Command::Bench(command) => command.run(),

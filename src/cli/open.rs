@@ -13,7 +13,8 @@ use crate::vulkan::{Device, Instance, pick};
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Device")]
 pub struct DeviceOptions {
-    /// Index or part of the name of the device, see `depthleap info` [default: discrete before integrated before CPU]
+    /// Device by its index (a whole number) or by a part of its name that no other has, see `depthleap info` [default:
+    /// discrete before integrated before CPU]
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
     /// Switch the validation layer on, synchronization validation included; a message ends the run with an error

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::longest::longest_ray;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
 use crate::math::ray::ViewRays;
 use crate::scene::Scene;
@@ -55,7 +55,7 @@ const GUARD: f64 = 2.0;
 
 impl View {
     /// # Errors
-    /// When the camera is not one (see [`crate::scene::Camera::basis`]).
+    /// When the camera is not one (see [`crate::scene::Camera::basis`]), or single precision has no numbers for the view.
     pub fn new(scene: &Scene) -> Result<Self> {
         let size = scene.settings.image.size;
         let rays = scene.camera.rays(size)?;
@@ -81,6 +81,7 @@ impl View {
             solid.triangles(front).into_iter().map(clip).collect()
         };
         let (front, back) = (project(true), project(false));
+        representable(scene, &rays, [&front, &back])?;
         let region = match covered(&front, size) {
             // Without the planner targets are as large as the picture.
             Region { width: 1.., .. } if !scene.settings.method.planner => {
@@ -91,6 +92,40 @@ impl View {
         let longest_samples = longest_samples(scene, &rays, region);
         Ok(Self { size, rays, front, back, region, longest_samples })
     }
+}
+
+/// The shortest side that a volume may have, in its longest: its inverse is a number of single precision.
+const SHORTEST_SIDE: f64 = 1e-30;
+
+/// Whether single precision, in which devices have them, has numbers for the view and the volume's proportions.
+fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> Result<()> {
+    let extent = scene.field.extent();
+    let inverse_step = 1.0 / (scene.settings.sampling.step * scene.field.finest());
+    if extent.min_element() < SHORTEST_SIDE || !(inverse_step as f32).is_finite() {
+        return Err(Error::input(
+            &scene.field.volume.name,
+            format!(
+                "has a side of {:e} of the longest, in steps of {}",
+                extent.min_element(),
+                scene.settings.sampling.step
+            ),
+            "give spacings that differ less, or a longer --step: single precision has no number for its inverse",
+        ));
+    }
+    let has = |v: DVec3| v.to_array().into_iter().all(|c| (c as f32).is_finite());
+    let sound = [rays.eye, rays.base, rays.right, rays.down].into_iter().all(has);
+    if sound && corners.into_iter().flatten().flatten().all(|c| c.is_finite()) {
+        return Ok(());
+    }
+    let camera = &scene.settings.camera;
+    Err(Error::usage(
+        "camera (--eye, --target, --fov)",
+        format!(
+            "eye {:?} with a field of view of {} degrees puts corners of the volume beyond single precision",
+            camera.eye, camera.fov_y
+        ),
+        "move the eye nearer to the volume, or choose a field of view farther from 0 and 180 degrees",
+    ))
 }
 
 /// The pixels that triangles may cover, one pixel more on each side.

@@ -5,8 +5,10 @@ use std::ffi::CStr;
 use ash::{ext, vk};
 use serde::{Serialize, Serializer};
 
+use super::diagnosis::diagnosed;
 use super::failure::failed;
 use super::instance::{API_VERSION, Instance, version_name};
+use super::pick::no_device;
 use crate::error::Result;
 
 /// NVIDIA packs its driver version in its own way.
@@ -83,11 +85,14 @@ impl Instance {
     /// All devices the loader knows, usable or not.
     ///
     /// # Errors
-    /// The loader cannot list them, which is also how it says that there is no driver at all.
+    /// The loader cannot list them, which is also how it says that there is no driver at all, or there is none.
     pub fn devices(&self) -> Result<Vec<DeviceInfo>> {
         // SAFETY: the instance is alive.
         let found = unsafe { self.raw.enumerate_physical_devices() }
-            .map_err(|code| failed("vkEnumeratePhysicalDevices", "Vulkan instance", code))?;
+            .map_err(|code| diagnosed(&self.entry, failed("vkEnumeratePhysicalDevices", "Vulkan instance", code)))?;
+        if found.is_empty() {
+            return Err(diagnosed(&self.entry, no_device()));
+        }
         found.into_iter().enumerate().map(|(index, physical)| describe(&self.raw, index, physical)).collect()
     }
 }

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::{ext, vk};
 
+use super::diagnosis::diagnosed;
 use super::failure::failed;
 use super::suppressed::SUPPRESSED;
 use crate::error::{Error, Result};
@@ -17,7 +18,7 @@ pub(super) const API_VERSION: u32 = vk::API_VERSION_1_3;
 /// Messages kept; a barrier left out can bring one for every draw.
 const MAX_MESSAGES: usize = 1000;
 
-type Messages = Mutex<Vec<String>>;
+pub(super) type Messages = Mutex<Vec<String>>;
 
 /// A loaded Vulkan instance. Lives until the last device made from it is gone.
 pub struct Instance {
@@ -27,7 +28,7 @@ pub struct Instance {
     /// Boxed: the driver holds its address while the instance lives.
     messages: Box<Messages>,
     /// Holds the library; dropped last.
-    _entry: ash::Entry,
+    pub(super) entry: ash::Entry,
 }
 
 impl Instance {
@@ -72,7 +73,7 @@ impl Instance {
             layers.push(VALIDATION_LAYER);
         }
 
-        let from_loader = extensions(&entry, None)?;
+        let from_loader = extensions(&entry, None).map_err(|error| diagnosed(&entry, error))?;
         let from_layer = if validate { extensions(&entry, Some(VALIDATION_LAYER))? } else { Vec::new() };
         let has = |name: &CStr| from_loader.iter().chain(&from_layer).any(|extension| extension.as_c_str() == name);
         let debug_utils = has(ext::debug_utils::NAME);
@@ -111,11 +112,11 @@ impl Instance {
         // SAFETY: layers and extensions were enumerated above; everything `info` points to outlives the call, and
         // `messages` the instance.
         let raw = unsafe { entry.create_instance(&info, None) }
-            .map_err(|code| failed("vkCreateInstance", "Vulkan instance", code))?;
+            .map_err(|code| diagnosed(&entry, failed("vkCreateInstance", "Vulkan instance", code)))?;
 
-        let mut instance = Self { raw, debug_utils, messenger: None, messages, _entry: entry };
+        let mut instance = Self { raw, debug_utils, messenger: None, messages, entry };
         if validate {
-            let debug = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
+            let debug = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);
             // SAFETY: the extension is on; the callback's data lives as long as the instance.
             let messenger =
                 unsafe { debug.create_debug_utils_messenger(&self::messenger_info(&instance.messages), None) }
@@ -169,7 +170,7 @@ fn extensions(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<std::ffi::
 }
 
 /// Warnings and errors about validity and in general; performance advice is for another tool.
-fn messenger_info(messages: &Messages) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+pub(super) fn messenger_info(messages: &Messages) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
     use vk::{DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type};
     vk::DebugUtilsMessengerCreateInfoEXT::default()
         .message_severity(Severity::WARNING | Severity::ERROR)

@@ -10,6 +10,7 @@ mod buffer;
 mod commands;
 mod descriptor;
 mod device;
+mod diagnosis;
 mod failure;
 mod format;
 mod image;

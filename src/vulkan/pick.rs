@@ -3,22 +3,20 @@
 use super::info::DeviceInfo;
 use crate::error::{Error, Result};
 
-/// The device to use and why. `wanted` is an index or a part of the name, in any case; without it a discrete GPU
-/// goes before an integrated, a virtual and a software one, and the first of a kind before the rest.
+/// The device to use and why. `wanted` is an index, where it is a whole number, or a part of one device's name, in any case;
+/// without it a discrete GPU goes before an integrated, a virtual and a software one, and the first of a kind before the
+/// rest.
 ///
 /// # Errors
-/// No device, none that can be used, or none that matches: the message lists what is there and why each is out.
+/// No device, none that can be used, none that matches, or several whose name does: the message lists what is there and
+/// why each is out.
 pub fn pick(devices: &[DeviceInfo], wanted: Option<&str>) -> Result<(DeviceInfo, String)> {
     let best = |candidates: &[&DeviceInfo]| -> Option<DeviceInfo> {
         let usable = candidates.iter().filter(|device| device.unusable.is_none());
         usable.min_by_key(|device| (device.kind, device.index)).map(|device| (*device).clone())
     };
     if devices.is_empty() {
-        return Err(Error::device(
-            "Vulkan",
-            "no device found",
-            "install a driver (Debian: mesa-vulkan-drivers has one that runs on the CPU)",
-        ));
+        return Err(no_device());
     }
     let all: Vec<_> = devices.iter().collect();
     let Some(wanted) = wanted else {
@@ -31,24 +29,37 @@ pub fn pick(devices: &[DeviceInfo], wanted: Option<&str>) -> Result<(DeviceInfo,
         return Ok((device, reason));
     };
     let input = format!("device {wanted:?}");
-    let by_index = wanted.trim().parse::<usize>().ok().and_then(|index| devices.iter().find(|one| one.index == index));
-    if let Some(device) = by_index {
-        return match &device.unusable {
-            None => Ok((device.clone(), format!("index {} was asked for", device.index))),
-            Some(_) => Err(none(devices, &input, "that device cannot be used")),
+    let usable = |device: &DeviceInfo, reason: String| match &device.unusable {
+        None => Ok((device.clone(), reason)),
+        Some(_) => Err(none(devices, &input, "that device cannot be used")),
+    };
+    let part = wanted.trim().to_lowercase();
+    if !part.is_empty() && part.chars().all(|c| c.is_ascii_digit()) {
+        // A number with more digits than an index can have is none of a device.
+        let index = part.parse::<usize>().ok();
+        return match devices.iter().find(|device| Some(device.index) == index) {
+            Some(device) => usable(device, format!("index {} was asked for", device.index)),
+            None => Err(none(devices, &input, "no device has that index")),
         };
     }
-    let part = wanted.trim().to_lowercase();
-    let named: Vec<_> = all.into_iter().filter(|device| device.name.to_lowercase().contains(&part)).collect();
-    if part.is_empty() || named.is_empty() {
-        return Err(none(devices, &input, "no device has that index or name"));
+    let whole: Vec<_> = all.iter().filter(|device| device.name.to_lowercase() == part).collect();
+    let contains: Vec<_> = all.iter().filter(|device| device.name.to_lowercase().contains(&part)).collect();
+    match (whole.as_slice(), contains.as_slice()) {
+        ([device], _) => usable(device, "that is its name".to_owned()),
+        (_, []) => Err(none(devices, &input, "no device has that name")),
+        _ if part.is_empty() => Err(none(devices, &input, "no device has that name")),
+        (_, [device]) => usable(device, format!("its name contains {wanted:?}")),
+        (_, several) => Err(none(devices, &input, &format!("{} devices have that in their name", several.len()))),
     }
-    let device = best(&named).ok_or_else(|| none(devices, &input, "that device cannot be used"))?;
-    let reason = match named.len() {
-        1 => format!("its name contains {wanted:?}"),
-        count => format!("the best of {count} devices whose name contains {wanted:?}"),
-    };
-    Ok((device, reason))
+}
+
+/// That there is nothing to choose from.
+pub(super) fn no_device() -> Error {
+    Error::device(
+        "Vulkan",
+        "no device found",
+        "install a driver (Debian: mesa-vulkan-drivers has one that runs on the CPU)",
+    )
 }
 
 fn none(devices: &[DeviceInfo], input: &str, problem: &str) -> Error {
@@ -60,7 +71,7 @@ fn none(devices: &[DeviceInfo], input: &str, problem: &str) -> Error {
         })
         .collect();
     let remedy = match devices.iter().any(|device| device.unusable.is_none()) {
-        true => "choose another by its index or a part of its name",
+        true => "choose another by its index, or by a part of its name that no other has",
         false => "install a Vulkan 1.3 driver (Debian: mesa-vulkan-drivers has one that runs on the CPU)",
     };
     Error::device(input, format!("{problem}; there are: {}", list.join(", ")), remedy)
