@@ -162,8 +162,10 @@ impl<'a> ExactIntegrator<'a> {
             low[axis] = below.clamp(0.0, last as f64) as usize;
             // Beyond the outermost centres the field is clamped: it doesn't change along this axis.
             if below >= 0.0 && low[axis] < last {
-                start[axis] = line.origin[axis] + a * line.direction[axis] - below;
-                rise[axis] = (b - a) * line.direction[axis];
+                // Within the cell, whatever rounding says of a very flat one.
+                let weight = |t: f64| (line.origin[axis] + t * line.direction[axis] - below).clamp(0.0, 1.0);
+                start[axis] = weight(a);
+                rise[axis] = ((b - a) * line.direction[axis]).clamp(-start[axis], 1.0 - start[axis]);
             }
         }
         if let Some(holes) = &self.field.holes {
@@ -238,16 +240,16 @@ impl<'a> Absorber<'a> {
                 light.add(begin, 1.0, [0.0; 3], 0.0);
                 return;
             }
-            let slope = segment.color_slope();
+            let change = segment.color_change();
             let medium = Medium {
                 x,
                 segment: &segment,
                 scale: lengths,
                 share,
-                steepest: slope.iter().fold(0.0, |most: f64, c| most.max(c.abs())) / self.brightest,
+                steepest: change.iter().fold(0.0, |most: f64, c| most.max(c.abs())) / self.brightest,
             };
             let stretch = medium.stretch(a, b, light.transmittance);
-            light.add(begin, stretch.opacity(), slope, stretch.rise);
+            light.add(begin, stretch.opacity(), change, stretch.rise);
         }
     }
 }
@@ -259,9 +261,9 @@ impl Light {
     }
 
     /// A stretch that begins in the colour `begin`, behind all that came before.
-    fn add(&mut self, begin: [f64; 3], opacity: f64, slope: [f64; 3], rise: f64) {
+    fn add(&mut self, begin: [f64; 3], opacity: f64, change: [f64; 3], rise: f64) {
         for (c, color) in self.color.iter_mut().enumerate() {
-            *color += self.transmittance * (begin[c] * opacity + slope[c] * rise);
+            *color += self.transmittance * (begin[c] * opacity + change[c] * rise);
         }
         self.transmittance *= 1.0 - opacity;
     }

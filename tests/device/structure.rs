@@ -7,7 +7,7 @@ use depthleap::frame::{Resident, Structures};
 use depthleap::plan::{papers_form, plan};
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{CELLS, MethodName, Settings, VolumeTexture};
+use depthleap::scene::settings::{CELLS, Filter, MethodName, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TransferFunction, Volume};
 use depthleap::vulkan::Device;
@@ -44,6 +44,10 @@ pub fn tests() -> Vec<Test> {
             move |device: &Arc<Device>| agree(device, &built_in("shells:30", "ramp", |s| s.volume.texture = texture));
         tests.push(test(&format!("device_and_host_agree::{texture:?}"), run));
     }
+    let nearest = |device: &Arc<Device>| {
+        agree(device, &built_in("blocks:33x20x30", "surface", |s| s.sampling.filter = Filter::Nearest));
+    };
+    tests.push(test("device_and_host_agree::nearest", nearest));
     for (name, tf) in [("fuel.nrrd", "ramp"), ("nucleon.nrrd", "linear"), ("mra_tof.nrrd", "ramp")] {
         let run = move |device: &Arc<Device>| {
             let mut settings = Settings::default();

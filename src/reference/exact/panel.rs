@@ -10,6 +10,9 @@ use crate::scene::transfer::{Knot, TransferFunction};
 /// Points of the Gauss-Legendre rule: order 12 in the length of a panel.
 const POINTS: usize = 6;
 
+/// A cubic that goes one way over a stretch is nowhere steeper than three times its mean.
+const STEEPEST: f64 = 3.0;
+
 /// Halvings after which a panel is taken as it is: its length is then below the rounding of the ray parameter.
 const DEEPEST: u32 = 52;
 
@@ -92,10 +95,16 @@ impl Segment {
         std::array::from_fn(|c| mix(self.from.color[c], self.to.color[c], weight))
     }
 
-    /// Change of the colour with x.
-    pub fn color_slope(&self) -> [f64; 3] {
+    /// Change of the colour over the piece.
+    pub fn color_change(&self) -> [f64; 3] {
+        std::array::from_fn(|c| self.to.color[c] - self.from.color[c])
+    }
+
+    /// A change of x over a panel in parts of the piece. A stretch does not leave its piece; where the piece is so narrow or
+    /// values so steep that rounding says it does, numbers would go beyond f64.
+    fn part(&self, change: f64) -> f64 {
         let width = self.to.x - self.from.x;
-        std::array::from_fn(|c| if width > 0.0 { (self.to.color[c] - self.from.color[c]) / width } else { 0.0 })
+        if width > 0.0 { (change / width).clamp(-STEEPEST, STEEPEST) } else { 0.0 }
     }
 
     /// Extinction per reference length, `-ln(1 - alpha)`.
@@ -118,8 +127,8 @@ impl Segment {
 pub struct Stretch {
     /// Optical depth.
     pub tau: f64,
-    /// integral of (x(s) - x(begin)) sigma(s) exp(-tau(s)) ds: times the colour's slope, what the change of
-    /// colour along the stretch adds to `color(begin) * opacity`.
+    /// integral of w(s) sigma(s) exp(-tau(s)) ds, with w the part of the piece that x has gone since the begin: times the
+    /// colour's change over the piece, what its change along the stretch adds to `color(begin) * opacity`.
     pub rise: f64,
 }
 
@@ -128,7 +137,7 @@ impl Stretch {
         -(-self.tau).exp_m1()
     }
 
-    /// This stretch in front of `behind`, which begins where x is `higher` by so much.
+    /// This stretch in front of `behind`, which begins where x is `higher` by so much of the piece.
     fn over(&self, behind: &Self, higher: f64) -> Self {
         let rise = self.rise + (-self.tau).exp() * (higher * behind.opacity() + behind.rise);
         Self { tau: self.tau + behind.tau, rise }
@@ -143,7 +152,7 @@ pub struct Medium<'a> {
     pub scale: f64,
     /// Shares of the whole ray per unit of the parameter.
     pub share: f64,
-    /// Largest colour slope: brings an error of `rise` to one of colour.
+    /// Largest change of colour: brings an error of `rise` to one of colour.
     pub steepest: f64,
 }
 
@@ -161,7 +170,7 @@ impl Medium<'_> {
     fn halved(&self, a: f64, b: f64, whole: Stretch, transmittance: f64, left: u32) -> Stretch {
         let middle = 0.5 * (a + b);
         let (mut front, mut back) = (self.panel(a, middle), self.panel(middle, b));
-        let higher = self.x.at(middle) - self.x.at(a);
+        let higher = self.segment.weight(self.x.at(middle)) - self.segment.weight(self.x.at(a));
         let both = front.over(&back, higher);
         let change = (both.opacity() - whole.opacity()).abs().max(self.steepest * (both.rise - whole.rise).abs());
         let allowed = TOLERANCE * (self.share * (b - a)).max(LEAST_SHARE);
@@ -173,7 +182,7 @@ impl Medium<'_> {
         front.over(&back, higher)
     }
 
-    /// One application of the rule. By parts, `rise` is integral of x'(s) (exp(-tau(s)) - exp(-tau(end))) ds,
+    /// One application of the rule. By parts, `rise` is integral of w'(s) (exp(-tau(s)) - exp(-tau(end))) ds,
     /// which stays bounded where sigma does not.
     fn panel(&self, a: f64, b: f64) -> Stretch {
         let rule = &*RULE;
@@ -183,9 +192,16 @@ impl Medium<'_> {
         let dot = |weights: &[f64; POINTS]| weights.iter().zip(sigma).map(|(w, s)| w * s).sum::<f64>();
         let tau = dot(&rule.weights);
         let end = (-tau).exp();
-        let rise = (0..POINTS)
-            .map(|j| rule.weights[j] * length * self.x.slope(place[j]) * ((-dot(&rule.to_node[j])).exp() - end))
+        let rise: f64 = (0..POINTS)
+            .map(|j| {
+                let gone = self.segment.part(length * self.x.slope(place[j]));
+                // The polynomial through steep sigma may leave what the way to a node can be.
+                let to_node = dot(&rule.to_node[j]).clamp(0.0, tau);
+                rule.weights[j] * gone * ((-to_node).exp() - end)
+            })
             .sum();
-        Stretch { tau, rise }
+        // Light of the stretch has a colour of the piece, however steep sigma is.
+        let (begin, opacity) = (self.segment.weight(self.x.at(a)), 1.0 - end);
+        Stretch { tau, rise: rise.clamp(-begin * opacity, (1.0 - begin) * opacity) }
     }
 }

@@ -11,6 +11,8 @@ mod volume;
 use depthleap::read;
 use depthleap::scene::{Scene, Settings};
 
+pub use kit::Random;
+
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {

@@ -8,12 +8,13 @@ mod law;
 mod orbit;
 mod planner;
 pub mod scenes;
+mod textures;
 mod truth;
 
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    [law::tests(), orbit::tests(), truth::tests(), features::tests(), planner::tests()]
+    [law::tests(), orbit::tests(), truth::tests(), features::tests(), planner::tests(), textures::tests()]
         .into_iter()
         .flatten()
         .map(|test| test.within("frame"))
