@@ -3,11 +3,13 @@
 pub mod builtin;
 pub mod camera;
 pub mod field;
+pub(crate) mod file_name;
 mod fixed;
 pub mod method;
 pub mod settings;
 pub mod transfer;
 pub mod volume;
+mod volume_choice;
 
 use std::sync::Arc;
 
