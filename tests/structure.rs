@@ -34,7 +34,7 @@ fn grid(cells: [usize; 3], sides: DVec3) -> Grid {
 
 /// Flags of the cells of one voxel.
 fn interesting(field: &Field, transfer: &TransferFunction) -> Vec<bool> {
-    cells::interesting(field, &Values::Float(field.values.as_slice().into()), transfer, &Grid::new(field, 1))
+    cells::interesting(field, &Values::Float(field.values.as_slice().into()), transfer, &Grid::new(field, 1), false)
 }
 
 fn preset(name: &str) -> TransferFunction {

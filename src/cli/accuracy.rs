@@ -1,5 +1,6 @@
 //! `depthleap accuracy`: error against run time.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
@@ -7,7 +8,7 @@ use clap::Args;
 
 use super::bench::command_line;
 use super::open::DeviceOptions;
-use super::options::{MethodOptions, SceneOptions, scene_name};
+use super::options::{MethodOptions, SceneOptions, is_scene_file, scene_name};
 use super::output::{Progress, settings_in, write_json};
 use crate::error::{Error, Result};
 use crate::measure::accuracy::{
@@ -42,7 +43,7 @@ use crate::scene::settings::{
 pub struct Accuracy {
     /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
-    scene: Option<String>,
+    scene: Option<OsString>,
     /// Folder for the files; made where it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -199,7 +200,7 @@ impl Accuracy {
         write::check_folder(&self.output)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
         self.method_options.apply(&mut settings);
-        let of_a_file = self.scene.as_deref().is_some_and(|scene| scene.ends_with(".toml"));
+        let of_a_file = self.scene.as_deref().is_some_and(is_scene_file);
         if self.scene_options.viewport.is_none() && !of_a_file {
             settings.image.size = [SIDE; 2];
         }

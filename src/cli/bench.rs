@@ -1,5 +1,6 @@
 //! `depthleap bench`: every method on every scene, with a table, JSON, CSV and the report.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
@@ -39,7 +40,7 @@ use crate::scene::settings::{CELLS, Cull, EXTRA_FETCHES, MethodName, MethodSetti
 pub struct Bench {
     /// Scene files (.toml), volume files or builtin:NAME:SIZE
     #[arg(value_name = "SCENE|VOLUME", default_values = BUILT_IN)]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// Folder for report.html, results.json and results.csv; made where it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -90,7 +91,7 @@ const BUILT_IN: [&str; 3] = ["builtin:shells:96", "builtin:jets:128", "builtin:b
 impl Bench {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
-        let settings = |name: &String| -> Result<Settings> {
+        let settings = |name: &OsString| -> Result<Settings> {
             let mut settings = self.scene_options.settings(Some(name))?;
             self.method_options.apply(&mut settings);
             Ok(settings)

@@ -1,6 +1,7 @@
 //! Options that several commands share, and how they change the settings of a scene. Every one of them has its
 //! key in a scene file; an option given on the command line wins.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,8 +12,8 @@ use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
 use crate::scene::range::RangeEnd;
 use crate::scene::settings::{
-    Accumulate, Alpha, Builder, Classification, Cull, DepthFormat, Filter, Last, Mark, MethodName, Offset, Settings,
-    TransferSettings, VolumeTexture,
+    Accumulate, Alpha, Builder, Classification, Component, Cull, DepthFormat, Endian, Filter, Last, Mark, MethodName,
+    Offset, Orientation, Settings, TransferSettings, VolumeTexture,
 };
 use crate::scene::transfer::PRESETS;
 use crate::scene::volume::VoxelType;
@@ -38,7 +39,7 @@ pub struct SceneOptions {
     /// Values of voxels that stand for no data, such as -9999; they count as NaN and not for the default range
     #[arg(long, value_name = "VALUE,...", value_delimiter = ',', value_parser = number, allow_hyphen_values = true)]
     no_data: Option<Vec<f64>>,
-    /// Voxels along x, y and z of a raw file (x varies fastest, little endian)
+    /// Voxels along x, y and z of a raw file (x varies fastest)
     #[arg(long, value_name = "X,Y,Z", value_parser = counts, allow_hyphen_values = true)]
     dims: Option<[usize; 3]>,
     /// Voxel type of a raw file
@@ -47,6 +48,21 @@ pub struct SceneOptions {
     /// Distances between the voxels of a raw file, in any unit [default: 1,1,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true)]
     spacing: Option<[f64; 3]>,
+    /// Byte order of the voxels of a raw file [default: little]
+    #[arg(long, value_name = "ORDER")]
+    endian: Option<Endian>,
+    /// Bytes in front of the voxels of a raw file that are skipped; -1 skips all that the voxels leave over [default: 0]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true)]
+    skip: Option<i64>,
+    /// Value shown of voxels that have several (colours, vectors): a number from 0, luminance (of Rec. 709) or magnitude
+    #[arg(long, value_name = "0..N|luminance|magnitude")]
+    component: Option<Component>,
+    /// Volume shown of a file that holds several, or slice of one that is a stack, counted from 0
+    #[arg(long, value_name = "N")]
+    frame: Option<usize>,
+    /// Axes the volume is drawn along: those its file states, or those of its stored voxels [default: file]
+    #[arg(long, value_name = "AXES")]
+    orientation: Option<Orientation>,
     /// How voxels are kept on the device [default: auto]
     #[arg(long, value_name = "FORMAT")]
     texture: Option<VolumeTexture>,
@@ -161,19 +177,16 @@ impl SceneOptions {
     ///
     /// # Errors
     /// When a scene file cannot be read.
-    pub fn settings(&self, scene: Option<&str>) -> Result<Settings> {
-        let mut settings = match scene {
-            None => Settings::default(),
-            Some(name) if name.ends_with(".toml") => read::settings(Path::new(name))?,
-            Some(name) => {
-                let mut settings = Settings::default();
-                match name.strip_prefix("builtin:") {
-                    Some(spec) => settings.volume.builtin = Some(spec.to_owned()),
-                    None => settings.volume.path = Some(PathBuf::from(name)),
-                }
-                settings
-            }
-        };
+    pub fn settings(&self, scene: Option<&OsStr>) -> Result<Settings> {
+        let mut settings = Settings::default();
+        match scene {
+            None => {}
+            Some(name) if is_scene_file(name) => settings = read::settings(Path::new(name))?,
+            Some(name) => match name.to_str().and_then(|name| name.strip_prefix("builtin:")) {
+                Some(spec) => settings.volume.builtin = Some(spec.to_owned()),
+                None => settings.volume.path = Some(PathBuf::from(name)),
+            },
+        }
         self.apply(&mut settings);
         Ok(settings)
     }
@@ -210,6 +223,11 @@ impl SceneOptions {
         put_some(&mut volume.voxel_type, &self.voxel_type);
         put_some(&mut volume.spacing, &self.spacing);
         put(&mut volume.no_data, &self.no_data);
+        put_some(&mut volume.endian, &self.endian);
+        put_some(&mut volume.skip, &self.skip);
+        put_some(&mut volume.component, &self.component);
+        put_some(&mut volume.frame, &self.frame);
+        put(&mut volume.orientation, &self.orientation);
         put(&mut volume.texture, &self.texture);
         put(&mut volume.precision, &self.precision);
         let image = &mut settings.image;
@@ -255,6 +273,11 @@ impl MethodOptions {
         method.lookups = self.lookups.unwrap_or(method.lookups);
         method.build = self.build.unwrap_or(method.build);
     }
+}
+
+/// Whether a scene is named by its file, not by its volume.
+pub fn is_scene_file(name: &OsStr) -> bool {
+    name.as_encoded_bytes().ends_with(b".toml")
 }
 
 /// What a scene is called in tables: the file without its folder, or the built-in volume.

@@ -1,5 +1,6 @@
 //! `depthleap plan`: the passes a scene needs, and what is left out.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -29,7 +30,7 @@ use crate::scene::settings::MethodName;
 pub struct Plan {
     /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
-    scene: Option<String>,
+    scene: Option<OsString>,
     /// Render method [default: nn-omni]
     #[arg(long, value_name = "NAME")]
     method: Option<MethodName>,

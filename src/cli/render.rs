@@ -1,5 +1,6 @@
 //! `depthleap render`: one picture, its counts and times.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -31,7 +32,7 @@ use crate::scene::settings::MethodName;
 pub struct Render {
     /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
-    scene: Option<String>,
+    scene: Option<OsString>,
     /// Picture: .png (8-bit sRGB over --background), .exr or .npy (float, linear, premultiplied; NPY [height][width][4],
     /// row 0 on top); -.png, -.exr and -.npy write to standard output, - is -.png
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]

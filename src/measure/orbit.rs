@@ -10,8 +10,8 @@ use super::statistics::Statistics;
 use crate::error::Result;
 use crate::frame::{Background, GpuFrame, Measure, Structures};
 use crate::plan;
-use crate::scene::Scene;
 use crate::scene::settings::{MethodName, MethodSettings};
+use crate::scene::{Camera, Scene};
 
 /// One frame of an orbit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,10 +76,8 @@ impl Runner<'_> {
         base.settings.method = method.clone();
         let turned = |frame: usize| 360.0 * frame as f64 / count as f64;
         let scene_of = |frame: usize| -> Option<Scene> {
-            let mut scene = base.clone();
-            scene.camera = scene.camera.turned(turned(frame));
-            scene.settings.camera.eye = scene.camera.eye.to_array();
-            (frame < count).then_some(scene)
+            let camera = Camera::from(&base.settings.camera).turned(turned(frame));
+            (frame < count).then(|| base.clone().seen_by(camera))
         };
         let form = plan::form(&base, checked.check.automatic(method.name))?;
         let mut background = Background::new(&checked.device);

@@ -1,27 +1,44 @@
 //! Bytes in, scene parts out: volumes, transfer functions, scene files.
 //!
 //! No reader trusts a header: memory is taken for what a file holds, never for what it promises, and a file is
-//! right only when it ends where its header says.
+//! right only when it holds what its header says; what follows is told in a warning.
 //!
-//! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read.rs`.
+//! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
 mod keys;
 pub mod nrrd;
+mod orient;
+mod packed;
+mod pick;
 pub mod raw;
 pub mod scene;
+mod source;
 pub mod transfer;
 mod voxels;
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 
-pub use raw::RawLayout;
+pub use raw::{ByteSkip, RawLayout};
 pub use scene::{check, scene, scene_of, settings, settings_from_json};
 pub use transfer::transfer;
 
+use self::packed::{Members, Packing};
+use self::source::Source;
 use crate::error::{Error, Result};
 use crate::scene::Volume;
+use crate::scene::settings::{Component, Orientation};
+
+/// What is taken of a file that holds more than one scalar volume, and how it is laid into volume space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Choice {
+    /// Of the values of a voxel.
+    pub component: Option<Component>,
+    /// Of the volumes of a sequence, or the slices of a stack.
+    pub frame: Option<usize>,
+    pub orientation: Orientation,
+}
 
 /// A volume format that says its own sizes.
 pub struct Format {
@@ -30,48 +47,59 @@ pub struct Format {
     pub extensions: &'static [&'static str],
     /// How its files begin.
     pub magic: &'static [u8],
-    read: fn(&Path) -> Result<Volume>,
+    read: fn(&Path, Source, &Choice) -> Result<Volume>,
 }
 
-pub const FORMATS: [Format; 1] =
+pub static FORMATS: [Format; 1] =
     [Format { name: "NRRD", extensions: &["nrrd", "nhdr"], magic: b"NRRD", read: nrrd::volume }];
 
 /// Sides outside this range (in the file's unit) do not survive the arithmetic of single precision.
 const SIDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-/// The volume in a file: by its first bytes, else by its ending; with `raw`, bare voxels in that layout.
+/// What some editors put in front of UTF-8 text.
+const BYTE_ORDER_MARK: &[u8] = &[0xef, 0xbb, 0xbf];
+
+/// The volume in a file that holds one.
 ///
 /// # Errors
-/// When the file cannot be read, is of no known format, or does not hold what its header or `raw` says.
+/// As [`volume_with`].
 pub fn volume(path: &Path, raw: Option<RawLayout>) -> Result<Volume> {
+    volume_with(path, raw, &Choice::default())
+}
+
+/// The volume in a file: by its first bytes, also where gzip packed it, else by its ending; with `raw`, bare voxels in that
+/// layout.
+///
+/// # Errors
+/// When the file cannot be read, is of no known format, does not hold what its header or `raw` says, or not what is
+/// chosen of it.
+pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Result<Volume> {
     let (mut file, length) = open(path)?;
-    let longest = FORMATS.iter().map(|f| f.magic.len()).max().unwrap_or(0) as u64;
-    let mut start = Vec::new();
-    file.by_ref().take(longest).read_to_end(&mut start).map_err(|e| unreadable(path, &e))?;
-    let by_magic = FORMATS.iter().find(|f| start.starts_with(f.magic));
-    let by_extension = || {
-        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-        FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str()))
-    };
-    let volume = match (by_magic, raw) {
+    let start = start(&mut file).map_err(|e| unreadable(path, &e))?;
+    let by_magic = by_magic(&start);
+    let packed = by_magic.is_none() && start.starts_with(Packing::Gzip.magic());
+    file.rewind().map_err(|e| unreadable(path, &e))?;
+    // What cannot be unpacked is not packed.
+    let unpacked = packed.then(|| self::start(Members::new(Packing::Gzip, std::io::BufReader::new(&mut file))).ok());
+    let in_gzip = unpacked.flatten().and_then(|start| self::by_magic(&start));
+    file.rewind().map_err(|e| unreadable(path, &e))?;
+    let mut volume = match (by_magic.or(in_gzip), raw) {
         (Some(format), Some(_)) => {
             let problem = format!("is a {} file, which says its own sizes", format.name);
-            return Err(Error::input(path.display(), problem, "leave out dims, type and spacing"));
+            let remedy = "leave out dims, type, spacing, endian and skip";
+            return Err(Error::input(path.display(), problem, remedy));
         }
-        (None, Some(layout)) => raw::volume(path, &layout)?,
-        (Some(format), None) => (format.read)(path)?,
-        (None, None) => match by_extension() {
-            Some(format) => (format.read)(path)?,
-            None => {
-                let known: Vec<_> =
-                    FORMATS.iter().map(|f| format!("{} (.{})", f.name, f.extensions.join(", ."))).collect();
-                let remedy = format!(
-                    "give a file of {}, or dims and type for raw voxels; scene files end in .toml",
-                    known.join(", ")
-                );
-                let problem = format!("is of no known volume format ({length} bytes)");
-                return Err(Error::input(path.display(), problem, remedy));
-            }
+        (None, Some(layout)) => {
+            choice.not_of(path, "raw voxels")?;
+            raw::volume(path, &layout)?
+        }
+        (Some(format), None) => {
+            let source = if in_gzip.is_some() { Source::packed(file, length) } else { Source::plain(file, length) };
+            (format.read)(path, source, choice)?
+        }
+        (None, None) => match by_extension(path) {
+            Some(format) => (format.read)(path, Source::plain(file, length), choice)?,
+            None => return Err(unknown(path, length)),
         },
     };
     let sides = [0, 1, 2].map(|a| volume.dims[a] as f64 * volume.spacing[a]);
@@ -79,7 +107,53 @@ pub fn volume(path: &Path, raw: Option<RawLayout>) -> Result<Volume> {
         let remedy = format!("give a spacing that keeps them from {:e} to {:e}", SIDES.start(), SIDES.end());
         return Err(Error::input(path.display(), format!("has the sides {sides:?}"), remedy));
     }
+    let rounded = voxels::rounded(&volume.voxels);
+    if rounded > 0 {
+        volume
+            .warnings
+            .push(format!("{rounded} voxels are integers beyond 2^53, which are rounded to the nearest f64"));
+    }
     Ok(volume)
+}
+
+impl Choice {
+    /// Whether nothing is chosen, as it has to be for what holds one scalar volume.
+    ///
+    /// # Errors
+    /// When a component or a frame is chosen.
+    fn not_of(&self, name: impl AsRef<Path>, what: &str) -> Result<()> {
+        let chosen = self.component.map(|c| ("component", c.to_string()));
+        let Some((key, value)) = chosen.or(self.frame.map(|n| ("frame", n.to_string()))) else { return Ok(()) };
+        let input = format!("{}: volume.{key} (--{key})", name.as_ref().display());
+        Err(Error::input(input, format!("is {value}, and {what} are one volume of one value a voxel"), "leave it out"))
+    }
+}
+
+/// The first bytes, as many as any format begins with, without a byte order mark.
+fn start(stream: impl Read) -> std::io::Result<Vec<u8>> {
+    let longest = FORMATS.iter().map(|f| f.magic.len()).max().unwrap_or(0) + BYTE_ORDER_MARK.len();
+    let mut start = Vec::new();
+    stream.take(longest as u64).read_to_end(&mut start)?;
+    if start.starts_with(BYTE_ORDER_MARK) {
+        start.drain(..BYTE_ORDER_MARK.len());
+    }
+    Ok(start)
+}
+
+fn by_magic(start: &[u8]) -> Option<&'static Format> {
+    FORMATS.iter().find(|f| start.starts_with(f.magic))
+}
+
+fn by_extension(path: &Path) -> Option<&'static Format> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str()))
+}
+
+fn unknown(path: &Path, length: u64) -> Error {
+    let known: Vec<_> = FORMATS.iter().map(|f| format!("{} (.{})", f.name, f.extensions.join(", ."))).collect();
+    let remedy =
+        format!("give a file of {}, or dims and type for raw voxels; scene files end in .toml", known.join(", "));
+    Error::input(path.display(), format!("is of no known volume format ({length} bytes)"), remedy)
 }
 
 /// A regular file and its length in bytes. A pipe or device is refused: its length is not known beforehand.

@@ -1,5 +1,6 @@
 //! Bare voxels, x fastest: everything but the bytes is said by the caller.
 
+use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
 use super::voxels::{self, Fault};
@@ -16,6 +17,23 @@ pub struct RawLayout {
     pub spacing: [f64; 3],
     /// Whether the highest byte of a number comes first.
     pub big_endian: bool,
+    /// Bytes in front of the voxels.
+    pub skip: ByteSkip,
+}
+
+/// Bytes in front of data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ByteSkip {
+    Bytes(u64),
+    /// As many as it takes for the data to be the last bytes of the file.
+    ToTail,
+}
+
+impl ByteSkip {
+    /// How files and options write it: -1 is [`ByteSkip::ToTail`]; none for other negative numbers.
+    pub fn of(bytes: i64) -> Option<Self> {
+        if bytes == -1 { Some(Self::ToTail) } else { u64::try_from(bytes).ok().map(Self::Bytes) }
+    }
 }
 
 /// # Errors
@@ -24,29 +42,41 @@ pub fn volume(path: &Path, layout: &RawLayout) -> Result<Volume> {
     let (mut file, length) = super::open(path)?;
     let bad = |problem: String, remedy: &str| Err(Error::input(path.display(), problem, remedy));
     let dims = layout.dims;
-    let Some((count, bytes)) = extent(dims, layout.voxel_type) else {
+    let Some((count, bytes)) = extent(&dims, layout.voxel_type) else {
         return bad(format!("cannot have the sizes {dims:?}: they overflow"), "correct dims and type");
     };
     let promised = format!("{dims:?} voxels of type {} ask for {bytes}", type_name(layout.voxel_type));
-    if length != bytes {
-        return bad(format!("holds {length} bytes where {promised}"), "correct dims and type or complete the file");
+    let (skip, behind) = match layout.skip {
+        ByteSkip::Bytes(0) => (0, String::new()),
+        ByteSkip::Bytes(skip) => (skip, format!(" behind the {skip} that are skipped")),
+        ByteSkip::ToTail => (length.saturating_sub(bytes), String::new()),
+    };
+    let held = length.saturating_sub(skip);
+    if held != bytes {
+        let remedy = if held < bytes {
+            "correct dims, type and skip, or complete the file"
+        } else {
+            "correct dims and type, or say how many bytes lie in front of the voxels with --skip BYTES (-1: the rest)"
+        };
+        return bad(format!("holds {held} bytes{behind} where {promised}"), remedy);
     }
-    match voxels::binary(&mut file, layout.voxel_type, count, layout.big_endian) {
-        Ok(voxels) => Volume::new(path.display().to_string(), dims, layout.spacing, voxels),
+    file.seek(SeekFrom::Start(skip)).map_err(|e| super::unreadable(path, &e))?;
+    let mut voxels = voxels::none(layout.voxel_type);
+    match voxels::binary(&mut file, &mut voxels, count, layout.big_endian) {
+        Ok(()) => Volume::new(path.display().to_string(), dims, layout.spacing, voxels),
         Err(Fault::Read(e)) => Err(super::unreadable(path, &e)),
         Err(Fault::Memory) => {
-            bad(format!("needs {bytes} bytes of memory, which are not to be had"), "use a smaller volume")
+            bad(format!("needs {bytes} bytes of memory, which are not available"), "use a smaller volume")
         }
         Err(Fault::Short { bytes: n }) => bad(format!("ends after {n} bytes where {promised}"), "complete the file"),
-        Err(Fault::Long) => bad(format!("grew while it was read: {promised}"), "read it when it is complete"),
     }
 }
 
-/// Voxels and bytes of such a volume; none where they overflow.
-pub(super) fn extent(dims: [usize; 3], voxel_type: VoxelType) -> Option<(usize, u64)> {
-    let count = dims.iter().try_fold(1usize, |n, &d| n.checked_mul(d))?;
+/// Voxels and bytes of such a volume; none where they overflow, or are more than memory could ever hold.
+pub(super) fn extent(sizes: &[usize], voxel_type: VoxelType) -> Option<(usize, u64)> {
+    let count = sizes.iter().try_fold(1usize, |n, &d| n.checked_mul(d))?;
     let bytes = count.checked_mul(voxel_type.bytes())?;
-    Some((count, u64::try_from(bytes).ok()?))
+    isize::try_from(bytes).ok().map(|_| (count, bytes as u64))
 }
 
 /// As on the command line: `u8`.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::RawLayout;
+use super::{ByteSkip, Choice, RawLayout};
 use crate::error::{Error, Result};
 use crate::scene::range::RangeEnd;
-use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, LOOKUPS, PRECISIONS, Settings, VolumeSettings};
+use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, Endian, LOOKUPS, PRECISIONS, Settings, VolumeSettings};
 use crate::scene::transfer::REFERENCES;
 use crate::scene::{Camera, Field, Scene, TextureUnit, Volume, builtin};
 
@@ -112,7 +112,9 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
-    let field = Field::of(volume(settings)?, &settings.volume.normalisation())?;
+    let volume = volume(settings)?;
+    let camera = camera.in_axes_of(volume.turn);
+    let field = Field::of(volume, &settings.volume.normalisation())?;
     Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
 }
 
@@ -220,23 +222,39 @@ fn check_volume(volume: &VolumeSettings) -> Result<()> {
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {
-    let raw = match (settings.dims, settings.voxel_type, settings.spacing) {
-        (Some(dims), Some(voxel_type), spacing) => {
-            Some(RawLayout { dims, voxel_type, spacing: spacing.unwrap_or([1.0; 3]), big_endian: false })
-        }
-        (None, None, None) => None,
-        (dims, _, _) => {
-            let missing = if dims.is_none() { "dims" } else { "type" };
-            let problem = format!("has some of dims, type and spacing, but not {missing}");
-            return Err(Error::usage("volume", problem, format!("add {missing} (raw files), or remove the others")));
-        }
-    };
+    let raw = raw_layout(settings)?;
+    let choice = Choice { component: settings.component, frame: settings.frame, orientation: settings.orientation };
     match (&settings.path, &settings.builtin) {
         (Some(_), Some(_)) => Err(Error::usage("volume", "has both path and builtin", "keep one of them")),
-        (Some(path), None) => super::volume(path, raw),
+        (Some(path), None) => super::volume_with(path, raw, &choice),
         (None, _) if raw.is_some() => {
             Err(Error::usage("volume", "has dims and type but no path", "give the path of a raw file, or remove them"))
         }
-        (None, name) => builtin::volume(name.as_deref().unwrap_or(DEFAULT_VOLUME)),
+        (None, name) => {
+            let name = name.as_deref().unwrap_or(DEFAULT_VOLUME);
+            choice.not_of(name, "built-in voxels")?;
+            builtin::volume(name)
+        }
     }
+}
+
+/// What the settings say of a raw file; none where they say nothing.
+fn raw_layout(settings: &VolumeSettings) -> Result<Option<RawLayout>> {
+    let VolumeSettings { dims, voxel_type, spacing, endian, skip, .. } = settings;
+    let (Some(dims), Some(voxel_type)) = (*dims, *voxel_type) else {
+        let some = [dims.is_some(), voxel_type.is_some(), spacing.is_some(), endian.is_some(), skip.is_some()];
+        if !some.contains(&true) {
+            return Ok(None);
+        }
+        let missing = if dims.is_none() { "dims" } else { "type" };
+        let problem = format!("has some of dims, type, spacing, endian and skip, but not {missing}");
+        return Err(Error::usage("volume", problem, format!("add {missing} (raw files), or remove the others")));
+    };
+    let skip = skip.unwrap_or(0);
+    let Some(skip) = ByteSkip::of(skip) else {
+        let remedy = "give a number of bytes, or -1 for all that the voxels leave over";
+        return Err(Error::usage("volume.skip (--skip)", format!("is {skip}"), remedy));
+    };
+    let big_endian = *endian == Some(Endian::Big);
+    Ok(Some(RawLayout { dims, voxel_type, spacing: spacing.unwrap_or([1.0; 3]), big_endian, skip }))
 }

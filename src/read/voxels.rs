@@ -1,8 +1,8 @@
-//! Bytes to typed voxels: as many as were promised, no byte fewer, none more.
+//! Bytes and text to typed voxels: as many as were promised, no voxel fewer. What follows them is left to the caller.
 
 use std::io::{self, Read};
 
-use crate::scene::volume::{VoxelType, Voxels};
+use crate::scene::volume::{VoxelType, Voxels, each_type};
 
 /// What was wrong with the bytes of a volume.
 #[derive(Debug)]
@@ -11,8 +11,6 @@ pub enum Fault {
     Short {
         bytes: u64,
     },
-    /// They go on after the last voxel.
-    Long,
     /// There is no memory for them.
     Memory,
     Read(io::Error),
@@ -21,47 +19,59 @@ pub enum Fault {
 /// Bytes read at once; memory grows by what has been read, so a lying header takes at most this much.
 const BLOCK: usize = 1 << 20;
 
-/// Reads `count` voxels and the end of the stream.
-pub fn binary(stream: &mut dyn Read, voxel_type: VoxelType, count: usize, big_endian: bool) -> Result<Voxels, Fault> {
-    macro_rules! typed {
-        ($variant:ident, $type:ty) => {
-            Voxels::$variant(numbers(
-                stream,
-                count,
-                if big_endian { <$type>::from_be_bytes } else { <$type>::from_le_bytes },
-            )?)
-        };
+/// No voxels of this type yet.
+pub fn none(voxel_type: VoxelType) -> Voxels {
+    match voxel_type {
+        VoxelType::U8 => Voxels::U8(Vec::new()),
+        VoxelType::I8 => Voxels::I8(Vec::new()),
+        VoxelType::U16 => Voxels::U16(Vec::new()),
+        VoxelType::I16 => Voxels::I16(Vec::new()),
+        VoxelType::U32 => Voxels::U32(Vec::new()),
+        VoxelType::I32 => Voxels::I32(Vec::new()),
+        VoxelType::U64 => Voxels::U64(Vec::new()),
+        VoxelType::I64 => Voxels::I64(Vec::new()),
+        VoxelType::F32 => Voxels::F32(Vec::new()),
+        VoxelType::F64 => Voxels::F64(Vec::new()),
     }
-    Ok(match voxel_type {
-        VoxelType::U8 => typed!(U8, u8),
-        VoxelType::I8 => typed!(I8, i8),
-        VoxelType::U16 => typed!(U16, u16),
-        VoxelType::I16 => typed!(I16, i16),
-        VoxelType::U32 => typed!(U32, u32),
-        VoxelType::I32 => typed!(I32, i32),
-        VoxelType::F32 => typed!(F32, f32),
-        VoxelType::F64 => typed!(F64, f64),
-    })
 }
 
-fn numbers<T, const N: usize>(stream: &mut dyn Read, count: usize, number: fn([u8; N]) -> T) -> Result<Vec<T>, Fault> {
-    let mut values = Vec::new();
+/// A type of voxels as bytes.
+trait Number: Sized {
+    fn append(values: &mut Vec<Self>, bytes: &[u8], big_endian: bool);
+}
+
+macro_rules! number {
+    ($($type:ty),*) => {
+        $(impl Number for $type {
+            fn append(values: &mut Vec<Self>, bytes: &[u8], big_endian: bool) {
+                let number = if big_endian { Self::from_be_bytes } else { Self::from_le_bytes };
+                values.extend(bytes.as_chunks().0.iter().map(|bytes| number(*bytes)));
+            }
+        })*
+    };
+}
+number!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64);
+
+/// Reads `count` voxels more into `voxels`.
+pub fn binary(stream: &mut dyn Read, voxels: &mut Voxels, count: usize, big_endian: bool) -> Result<(), Fault> {
+    each_type!(voxels, values => numbers(stream, values, count, big_endian))
+}
+
+fn numbers<T: Number>(stream: &mut dyn Read, values: &mut Vec<T>, count: usize, big: bool) -> Result<(), Fault> {
+    let (size, mut left) = (size_of::<T>(), count);
     let mut block = Vec::new();
-    while values.len() < count {
-        let wanted = (BLOCK / N).min(count - values.len());
+    while left > 0 {
+        let wanted = (BLOCK / size).min(left);
         block.clear();
-        stream.take((wanted * N) as u64).read_to_end(&mut block).map_err(Fault::Read)?;
-        if block.len() < wanted * N {
-            return Err(Fault::Short { bytes: (values.len() * N + block.len()) as u64 });
+        stream.take((wanted * size) as u64).read_to_end(&mut block).map_err(Fault::Read)?;
+        if block.len() < wanted * size {
+            return Err(Fault::Short { bytes: ((count - left) * size + block.len()) as u64 });
         }
         values.try_reserve(wanted).map_err(|_| Fault::Memory)?;
-        values.extend(block.as_chunks::<N>().0.iter().map(|bytes| number(*bytes)));
+        T::append(values, &block, big);
+        left -= wanted;
     }
-    match stream.take(1).read_to_end(&mut block) {
-        Ok(0) => Ok(values),
-        Ok(_) => Err(Fault::Long),
-        Err(e) => Err(Fault::Read(e)),
-    }
+    Ok(())
 }
 
 /// What was wrong with numbers written as text.
@@ -74,37 +84,37 @@ pub enum TextFault {
     Memory,
 }
 
-/// `count` numbers between white space. `text` is the whole of them, so memory is bounded by what was read.
-pub fn text(text: &str, voxel_type: VoxelType, count: usize) -> Result<Voxels, TextFault> {
-    macro_rules! typed {
-        ($variant:ident, $type:ty) => {
-            Voxels::$variant(parsed::<$type>(text, count)?)
-        };
-    }
-    Ok(match voxel_type {
-        VoxelType::U8 => typed!(U8, u8),
-        VoxelType::I8 => typed!(I8, i8),
-        VoxelType::U16 => typed!(U16, u16),
-        VoxelType::I16 => typed!(I16, i16),
-        VoxelType::U32 => typed!(U32, u32),
-        VoxelType::I32 => typed!(I32, i32),
-        VoxelType::F32 => typed!(F32, f32),
-        VoxelType::F64 => typed!(F64, f64),
-    })
+/// The numbers of a text: white space and commas stand between them.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| c.is_ascii_whitespace() || c == ',').filter(|word| !word.is_empty())
 }
 
-fn parsed<T: std::str::FromStr>(text: &str, count: usize) -> Result<Vec<T>, TextFault> {
-    let found = text.split_ascii_whitespace().count();
-    if found != count {
+/// Reads `count` voxels more from `text` into `voxels`; gives how many words follow them. `text` is the whole of a file's
+/// numbers, so memory is bounded by what was read.
+pub fn text(text: &str, voxels: &mut Voxels, count: usize) -> Result<usize, TextFault> {
+    each_type!(voxels, values => parsed(text, values, count))
+}
+
+fn parsed<T: std::str::FromStr>(text: &str, values: &mut Vec<T>, count: usize) -> Result<usize, TextFault> {
+    let found = words(text).count();
+    if found < count {
         return Err(TextFault::Count(found));
     }
-    let mut values = Vec::new();
-    values.try_reserve_exact(count).map_err(|_| TextFault::Memory)?;
-    for (i, word) in text.split_ascii_whitespace().enumerate() {
+    values.try_reserve(count).map_err(|_| TextFault::Memory)?;
+    for (i, word) in words(text).take(count).enumerate() {
         values.push(word.parse().map_err(|_| TextFault::Number(i, word.chars().take(LONGEST_SHOWN).collect()))?);
     }
-    Ok(values)
+    Ok(found - count)
 }
 
 /// Characters of a wrong number that an error shows.
 const LONGEST_SHOWN: usize = 40;
+
+/// How many of the voxels an f64 cannot hold exactly: 64-bit integers beyond 2^53.
+pub fn rounded(voxels: &Voxels) -> usize {
+    match voxels {
+        Voxels::U64(v) => v.iter().filter(|v| (**v as f64) as u128 != u128::from(**v)).count(),
+        Voxels::I64(v) => v.iter().filter(|v| (**v as f64) as i128 != i128::from(**v)).count(),
+        _ => 0,
+    }
+}

@@ -44,6 +44,16 @@ impl Camera {
         Self { eye: self.target + turn * (self.eye - self.target), ..self }
     }
 
+    /// The same view of a scene that lies turned in space, told in that scene's own axes: `turn` leads from these to
+    /// volume space.
+    pub fn in_axes_of(self, turn: DQuat) -> Self {
+        if turn == DQuat::IDENTITY {
+            return self;
+        }
+        let back = turn.inverse();
+        Self { eye: back * self.eye, target: back * self.target, up: back * self.up, ..self }
+    }
+
     /// # Errors
     /// When the camera has no view direction, `up` lies along it, or the field of view is not in (0, 180).
     pub fn basis(&self) -> Result<Basis> {

@@ -3,6 +3,7 @@
 pub mod builtin;
 pub mod camera;
 pub mod field;
+pub(crate) mod file_name;
 mod fixed;
 pub mod method;
 pub mod range;
@@ -10,6 +11,7 @@ pub mod settings;
 pub mod texture;
 pub mod transfer;
 pub mod volume;
+mod volume_choice;
 
 use std::sync::Arc;
 
@@ -29,4 +31,16 @@ pub struct Scene {
     pub camera: Camera,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
+}
+
+impl Scene {
+    /// The same scene, seen by a camera that is given in volume space.
+    pub fn seen_by(mut self, camera: Camera) -> Self {
+        let settings = &mut self.settings.camera;
+        (settings.eye, settings.target, settings.up) =
+            (camera.eye.to_array(), camera.target.to_array(), camera.up.to_array());
+        settings.fov_y = camera.fov_y;
+        self.camera = camera.in_axes_of(self.field.volume.turn);
+        self
+    }
 }

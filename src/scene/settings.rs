@@ -11,6 +11,7 @@ use super::fixed;
 pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 use super::range::RangeEnd;
 use super::volume::VoxelType;
+pub use super::volume_choice::{Component, Endian, Orientation};
 
 /// All keys of a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,7 +29,7 @@ pub struct Settings {
 #[serde(default, deny_unknown_fields, expecting = "the section [volume]")]
 pub struct VolumeSettings {
     /// A file, relative to the scene file.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", with = "super::file_name")]
     pub path: Option<PathBuf>,
     /// `NAME:SIZE`, see [`super::builtin`].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,6 +48,19 @@ pub struct VolumeSettings {
     pub voxel_type: Option<VoxelType>,
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub spacing: Option<[f64; 3]>,
+    /// The byte order of a raw file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub endian: Option<Endian>,
+    /// Bytes in front of the voxels of a raw file; -1: all that the voxels leave over.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub skip: Option<i64>,
+    /// Which value of a voxel is shown where the file holds several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub component: Option<Component>,
+    /// Which volume is shown, counted from 0, where the file holds several, one after another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<usize>,
+    pub orientation: Orientation,
     pub texture: VolumeTexture,
     /// How far an interpolated x may be off before `texture = "auto"` takes a finer format, and a named one is warned of.
     pub precision: f64,
@@ -70,6 +84,11 @@ impl Default for VolumeSettings {
             dims: None,
             voxel_type: None,
             spacing: None,
+            endian: None,
+            skip: None,
+            component: None,
+            frame: None,
+            orientation: Orientation::default(),
             texture: VolumeTexture::default(),
             precision: DEFAULT_PRECISION,
         }
@@ -103,7 +122,7 @@ pub struct TransferSettings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
     /// A transfer function file, relative to the scene file: `{"points": [[x, r, g, b, a], ...]}`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", with = "super::file_name")]
     pub file: Option<PathBuf>,
     /// Points [x, red, green, blue, opacity].
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional_lists")]

@@ -1,4 +1,6 @@
-//! A volume as its file holds it: typed voxels, dimensions, spacing.
+//! A volume as its file holds it: typed voxels, dimensions, spacing, and how it lies in space.
+
+use glam::DQuat;
 
 use crate::error::{Error, Result};
 
@@ -11,6 +13,8 @@ pub enum Voxels {
     I16(Vec<i16>),
     U32(Vec<u32>),
     I32(Vec<i32>),
+    U64(Vec<u64>),
+    I64(Vec<i64>),
     F32(Vec<f32>),
     F64(Vec<f64>),
 }
@@ -26,6 +30,8 @@ pub enum VoxelType {
     I16,
     U32,
     I32,
+    U64,
+    I64,
     F32,
     F64,
 }
@@ -36,7 +42,7 @@ impl VoxelType {
             Self::U8 | Self::I8 => 1,
             Self::U16 | Self::I16 => 2,
             Self::U32 | Self::I32 | Self::F32 => 4,
-            Self::F64 => 8,
+            Self::U64 | Self::I64 | Self::F64 => 8,
         }
     }
 }
@@ -51,11 +57,15 @@ macro_rules! each_type {
             Voxels::I16($v) => $body,
             Voxels::U32($v) => $body,
             Voxels::I32($v) => $body,
+            Voxels::U64($v) => $body,
+            Voxels::I64($v) => $body,
             Voxels::F32($v) => $body,
             Voxels::F64($v) => $body,
         }
     };
 }
+
+pub(crate) use each_type;
 
 impl Voxels {
     pub fn len(&self) -> usize {
@@ -66,7 +76,7 @@ impl Voxels {
         self.len() == 0
     }
 
-    /// The voxel at `index`, without loss (every type fits an f64).
+    /// The voxel at `index`: without loss, but for 64-bit integers beyond 2^53, which are rounded to the nearest f64.
     #[allow(clippy::unnecessary_cast)]
     pub fn get(&self, index: usize) -> f64 {
         each_type!(self, v => v[index] as f64)
@@ -80,6 +90,8 @@ impl Voxels {
             Self::I16(_) => VoxelType::I16,
             Self::U32(_) => VoxelType::U32,
             Self::I32(_) => VoxelType::I32,
+            Self::U64(_) => VoxelType::U64,
+            Self::I64(_) => VoxelType::I64,
             Self::F32(_) => VoxelType::F32,
             Self::F64(_) => VoxelType::F64,
         }
@@ -96,6 +108,8 @@ pub struct Volume {
     /// Distance of voxel centres along x, y and z, in the source's unit; finite and positive.
     pub spacing: [f64; 3],
     pub voxels: Voxels,
+    /// How the volume lies in volume space: the rotation from its own axes to those of volume space.
+    pub turn: DQuat,
     /// What reading did with the file that its user may want to know: one sentence each, for outputs and reports.
     pub notes: Vec<String>,
     /// What may make a picture of the volume mislead, one sentence each.
@@ -129,6 +143,6 @@ impl Volume {
                 "correct the sizes or complete the data",
             ));
         }
-        Ok(Self { name, dims, spacing, voxels, notes: Vec::new(), warnings: Vec::new() })
+        Ok(Self { name, dims, spacing, voxels, turn: DQuat::IDENTITY, notes: Vec::new(), warnings: Vec::new() })
     }
 }

@@ -56,6 +56,8 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         left_out: vec![LeftOut { what: "depth_peel".into(), why: "no translucent polygons".into() }],
         plan: vec![" 1 ray_setup".into(), " 2 main_pass #0".into()],
         notes: vec!["software driver".into()],
+        texture: None,
+        warnings: Vec::new(),
         orbit: None,
         saved: None,
         settings: Settings::default(),

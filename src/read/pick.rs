@@ -1,0 +1,97 @@
+//! One scalar volume out of all the values of a file: a frame, a component, axes in another order.
+
+use rayon::prelude::*;
+
+use crate::scene::settings::Component;
+use crate::scene::volume::{Voxels, each_type};
+
+/// Where the voxels of a volume lie among the values of a file: at `first` + i * `steps`[0] + j * `steps`[1] + ...
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picked {
+    pub first: isize,
+    /// Values from a voxel to the next along x, y and z; negative along an axis that is mirrored.
+    pub steps: [isize; 3],
+    pub dims: [usize; 3],
+    /// What is made of the values of one voxel; none where it has one.
+    pub combined: Option<Combined>,
+}
+
+/// Several values of a voxel made one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Combined {
+    /// [`Component::Luminance`] or [`Component::Magnitude`].
+    pub by: Component,
+    pub count: usize,
+    /// Values from one component to the next.
+    pub step: isize,
+}
+
+/// Red, green and blue of ITU-R Rec. 709 in its luminance.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+impl Picked {
+    /// The volume's voxels. Picking keeps their type; combined ones are f32, or f64 where single precision does not
+    /// hold every value of the type.
+    pub fn of(&self, values: Voxels) -> Voxels {
+        let [x, y, z] = self.dims;
+        if self.combined.is_none() && self.in_order() && values.len() == x * y * z {
+            return values;
+        }
+        if let Some(combined) = self.combined {
+            let one = |at: usize| combined.value(&values, at);
+            return match values {
+                Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) => {
+                    Voxels::F32(self.each(|at| one(at) as f32))
+                }
+                _ => Voxels::F64(self.each(one)),
+            };
+        }
+        match &values {
+            Voxels::U8(v) => Voxels::U8(self.each(|at| v[at])),
+            Voxels::I8(v) => Voxels::I8(self.each(|at| v[at])),
+            Voxels::U16(v) => Voxels::U16(self.each(|at| v[at])),
+            Voxels::I16(v) => Voxels::I16(self.each(|at| v[at])),
+            Voxels::U32(v) => Voxels::U32(self.each(|at| v[at])),
+            Voxels::I32(v) => Voxels::I32(self.each(|at| v[at])),
+            Voxels::U64(v) => Voxels::U64(self.each(|at| v[at])),
+            Voxels::I64(v) => Voxels::I64(self.each(|at| v[at])),
+            Voxels::F32(v) => Voxels::F32(self.each(|at| v[at])),
+            Voxels::F64(v) => Voxels::F64(self.each(|at| v[at])),
+        }
+    }
+
+    /// Whether the voxels are the values as they stand.
+    fn in_order(&self) -> bool {
+        let [x, y, z] = self.dims;
+        let plain = [1, x, x * y];
+        // The step along an axis of one voxel is never taken.
+        let steps_plainly = |a: usize| self.dims[a] == 1 || usize::try_from(self.steps[a]) == Ok(plain[a]);
+        self.first == 0 && z > 0 && (0..3).all(steps_plainly)
+    }
+
+    fn each<T: Send>(&self, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let [x, y, z] = self.dims;
+        let at = |i: usize| {
+            let index = [i % x, i / x % y, i / (x * y)];
+            let place = (0..3).fold(self.first, |place, a| place + index[a] as isize * self.steps[a]);
+            value(place as usize)
+        };
+        (0..x * y * z).into_par_iter().map(at).collect()
+    }
+}
+
+impl Combined {
+    #[allow(clippy::unnecessary_cast)]
+    fn value(&self, values: &Voxels, at: usize) -> f64 {
+        let component = |n: usize| (at as isize + n as isize * self.step) as usize;
+        each_type!(values, v => {
+            let value = |n: usize| v[component(n)] as f64;
+            match self.by {
+                Component::Number(n) => value(n),
+                Component::Luminance => (0..3).map(|n| LUMINANCE[n] * value(n)).sum(),
+                // By hypot: squares of what f64 holds may overflow, their root need not.
+                Component::Magnitude => (0..self.count).map(value).fold(0.0, f64::hypot),
+            }
+        })
+    }
+}
