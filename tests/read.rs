@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use depthleap::Result;
-use depthleap::read::{self, RawLayout};
+use depthleap::read::{self, ByteSkip, RawLayout};
 use depthleap::scene::volume::{Volume, VoxelType, Voxels};
 use flate2::{Compression, write::GzEncoder};
 use tempfile::TempDir;
@@ -125,7 +125,13 @@ fn raw_files_round_trip_in_both_byte_orders() {
     for sample in samples() {
         for (big_endian, bytes) in [(false, &sample.little), (true, &sample.big)] {
             let (dims, spacing) = ([3, 2, 2], [1.0, 2.0, 3.0]);
-            let layout = RawLayout { dims, voxel_type: sample.voxels.voxel_type(), spacing, big_endian };
+            let layout = RawLayout {
+                dims,
+                voxel_type: sample.voxels.voxel_type(),
+                spacing,
+                big_endian,
+                skip: ByteSkip::Bytes(0),
+            };
             let (_folder, path) = file("a.raw", bytes);
             let volume = read::volume(&path, Some(layout)).unwrap();
             assert_eq!((volume.dims, volume.spacing, &volume.voxels), (dims, spacing, &sample.voxels));
@@ -135,7 +141,13 @@ fn raw_files_round_trip_in_both_byte_orders() {
 
 #[test]
 fn raw_file_too_short_or_too_long_names_both_lengths() {
-    let layout = RawLayout { dims: [2, 2, 2], voxel_type: VoxelType::U16, spacing: [1.0; 3], big_endian: false };
+    let layout = RawLayout {
+        dims: [2, 2, 2],
+        voxel_type: VoxelType::U16,
+        spacing: [1.0; 3],
+        big_endian: false,
+        skip: ByteSkip::Bytes(0),
+    };
     for length in (0..40).filter(|n| *n != 16) {
         let (_folder, path) = file("a.raw", &vec![7; length]);
         let message = read::volume(&path, Some(layout)).unwrap_err().to_string();
@@ -146,7 +158,13 @@ fn raw_file_too_short_or_too_long_names_both_lengths() {
 #[test]
 fn raw_sizes_that_overflow_or_are_zero_are_refused() {
     for dims in [[usize::MAX; 3], [1 << 21; 3], [1 << 20; 3], [0, 1, 1]] {
-        let layout = RawLayout { dims, voxel_type: VoxelType::F64, spacing: [1.0; 3], big_endian: false };
+        let layout = RawLayout {
+            dims,
+            voxel_type: VoxelType::F64,
+            spacing: [1.0; 3],
+            big_endian: false,
+            skip: ByteSkip::Bytes(0),
+        };
         for bytes in [vec![], vec![0; 8]] {
             let (_folder, path) = file("a.raw", &bytes);
             read::volume(&path, Some(layout)).unwrap_err();
@@ -350,6 +368,12 @@ fn bytes_and_lines_before_the_data_are_skipped() {
 #[test]
 fn a_layout_for_a_file_that_says_its_own_is_refused() {
     let (_folder, path) = file("a.nrrd", &nrrd(SMALL, &[0; 4]));
-    let layout = RawLayout { dims: [2, 1, 2], voxel_type: VoxelType::U8, spacing: [1.0; 3], big_endian: false };
+    let layout = RawLayout {
+        dims: [2, 1, 2],
+        voxel_type: VoxelType::U8,
+        spacing: [1.0; 3],
+        big_endian: false,
+        skip: ByteSkip::Bytes(0),
+    };
     assert!(read::volume(&path, Some(layout)).unwrap_err().to_string().contains("leave out dims"));
 }
