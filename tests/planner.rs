@@ -23,7 +23,7 @@ fn planned(settings: &Settings, planner: bool) -> Plan {
 }
 
 fn resources(plan: &Plan) -> BTreeSet<Resource> {
-    plan.steps.iter().flat_map(|step| &step.accesses).map(|access| access.resource).collect()
+    plan.steps.iter().flat_map(|step| step.accesses.iter()).map(|access| access.resource).collect()
 }
 
 fn steps(plan: &Plan, group: Group) -> usize {
@@ -36,7 +36,7 @@ fn shaders(plan: &Plan) -> Vec<Shader> {
         .steps
         .iter()
         .filter_map(|step| match &step.work {
-            Work::Draw(draw) => draw.shader.clone(),
+            Work::Draw(draw) => draw.shader.as_deref().map(str::to_owned),
             _ => None,
         })
         .collect();

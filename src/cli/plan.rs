@@ -146,7 +146,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> Pl
                 crate::pass::Work::Dispatch(dispatch) => Some(dispatch.shader.as_str()),
                 _ => draw.and_then(|d| d.shader.as_deref()),
             },
-            constants: draw.map(|d| d.constants.clone()).unwrap_or_default(),
+            constants: draw.map(|d| d.constants.to_vec()).unwrap_or_default(),
         }
     });
     let resources: Vec<(Resource, Option<u64>)> =

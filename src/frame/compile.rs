@@ -144,7 +144,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
 
 fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMap<Resource, Image>> {
     let mut usages: HashMap<Resource, vk::ImageUsageFlags> = HashMap::new();
-    for access in plan.steps.iter().flat_map(|s| &s.accesses).filter(|a| a.resource.is_target()) {
+    for access in plan.steps.iter().flat_map(|s| s.accesses.iter()).filter(|a| a.resource.is_target()) {
         let flags = usages.entry(access.resource).or_default();
         *flags |= match access.usage {
             Usage::Color | Usage::ColorKept => vk::ImageUsageFlags::COLOR_ATTACHMENT,

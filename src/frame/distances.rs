@@ -250,7 +250,7 @@ impl Distances {
     ) -> Result<Vec<(Resource, Buffer)>> {
         let octants = octants(lookup.distance);
         let mut made: Vec<(Resource, Buffer)> = Vec::new();
-        for resource in list.iter().flat_map(|step| &step.accesses).map(|access| access.resource) {
+        for resource in list.iter().flat_map(|step| step.accesses.iter()).map(|access| access.resource) {
             let there = find(&made, resource).is_some() || self.part(lookup.cell, lookup.nearest, resource).is_some();
             let bytes = steps::bytes(grid, octants, resource);
             if !there && bytes > 0 {
@@ -288,7 +288,7 @@ pub fn fits(device: &Device, field: &Field, lookup: &Lookup) -> bool {
     let octants = octants(lookup.distance);
     let largest = steps::steps(field, lookup)
         .iter()
-        .flat_map(|step| &step.accesses)
+        .flat_map(|step| step.accesses.iter())
         .map(|access| steps::bytes(&grid, octants, access.resource))
         .max();
     largest.unwrap_or(0) <= device.info.max_storage_buffer

@@ -8,7 +8,7 @@ use ash::vk;
 
 use crate::error::Result;
 use crate::glsl;
-use crate::pass::DepthTest;
+use crate::pass::{Constant, DepthTest};
 use crate::vulkan::{
     Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
     Shader,
@@ -18,8 +18,8 @@ use crate::vulkan::{
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct PipelineKey {
     pub render_pass: RenderPassInfo,
-    pub shader: Option<String>,
-    pub constants: Vec<(&'static str, u32)>,
+    pub shader: Option<Arc<str>>,
+    pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
     pub blend: bool,
 }

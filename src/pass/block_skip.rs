@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
@@ -20,9 +20,7 @@ pub fn block_skip(scene: &Scene, needs: Needs, pass: u32, form: cull::Form) -> S
     accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
     let shader = format!("block_skip.frag:{}", needs.variant(vec![form.mark_variant()]));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
-    draw.constants.push(constants::samples(scene));
-    draw.constants.push(constants::depth_bits(scene));
-    draw.constants.push(constants::spans(scene));
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
-    Step { name: format!("block_skip #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
+    Step::drawn(format!("block_skip #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

@@ -8,7 +8,7 @@ pub fn clear() -> Step {
         name: "clear".to_owned(),
         group: Group::Setup,
         pass: 0,
-        accesses: vec![Usage::CopyTarget.of(Resource::Accumulated)],
+        accesses: vec![Usage::CopyTarget.of(Resource::Accumulated)].into(),
         work: Work::Clear(Resource::Accumulated),
     }
 }

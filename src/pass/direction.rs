@@ -14,7 +14,8 @@ pub fn direction() -> Step {
             Usage::Sampled.of(Resource::Frame),
             Usage::Sampled.of(Resource::Entry),
             Usage::Color.of(Resource::Direction),
-        ],
+        ]
+        .into(),
         work: Work::Draw(Draw::plain(Faces::Back, "direction.frag", reference::direction::direction)),
     }
 }

@@ -13,7 +13,8 @@ pub fn entry() -> Step {
             Usage::Vertices.of(Resource::Box),
             Usage::Sampled.of(Resource::Frame),
             Usage::Color.of(Resource::Entry),
-        ],
+        ]
+        .into(),
         work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", reference::entry::entry)),
     }
 }

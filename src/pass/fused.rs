@@ -2,7 +2,7 @@
 
 use super::cull::{self, Form};
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, Work, constants};
+use super::{Draw, Faces, Group, Needs, Step, constants};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
@@ -35,15 +35,14 @@ pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) ->
     let shader = format!("fused.frag:{}", needs.variant(variant));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
     draw.blend = true;
-    draw.constants.push(constants::samples(scene));
-    draw.constants.push(constants::depth_bits(scene));
-    draw.constants.extend(constants::segment(scene, needs));
-    draw.constants.extend(constants::near_neighbor(scene));
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
+    draw.specialize(constants::segment(scene, needs));
+    draw.specialize(constants::near_neighbor(scene));
     let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
-    draw.constants.push(("BLEND_ROUNDING", rounding.to_bits()));
+    draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
     if let Some(mark) = marks {
         cull::mark_into(&mut draw, &mut accesses, mark, cull::rising(mark));
     }
-    Step { name: format!("fused #{pass}"), group: Group::Main, pass, accesses, work: Work::Draw(draw) }
+    Step::drawn(format!("fused #{pass}"), Group::Main, pass, accesses, draw)
 }

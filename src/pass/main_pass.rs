@@ -1,7 +1,7 @@
 //! Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2].
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 use crate::scene::settings::Cull;
@@ -23,10 +23,10 @@ pub fn main_pass(scene: &Scene, needs: Needs, pass: u32, culled: Option<(Cull, f
     let variant = if variant.is_empty() { "plain".to_owned() } else { variant.join("+") };
     let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
     draw.blend = true;
-    draw.constants.push(constants::samples(scene));
-    draw.constants.extend(constants::segment(scene, needs));
+    draw.specialize([constants::samples(scene)]);
+    draw.specialize(constants::segment(scene, needs));
     if let Some((how, bound)) = culled {
         cull::cull_by_stored(&mut draw, &mut accesses, how, bound);
     }
-    Step { name: format!("main_pass #{pass}"), group: Group::Main, pass, accesses, work: Work::Draw(draw) }
+    Step::drawn(format!("main_pass #{pass}"), Group::Main, pass, accesses, draw)
 }

@@ -10,7 +10,7 @@ pub fn mark_copy(pass: u32) -> Step {
         name: format!("mark_copy #{pass}"),
         group: Group::Copy,
         pass,
-        accesses: vec![Usage::CopySource.of(Resource::Marks), Usage::CopyTarget.of(Resource::Stored)],
+        accesses: vec![Usage::CopySource.of(Resource::Marks), Usage::CopyTarget.of(Resource::Stored)].into(),
         work: Work::Copy { from: Resource::Marks, by: Resource::MarksBuffer, to: Resource::Stored },
     }
 }

@@ -18,6 +18,8 @@ pub mod near_neighbor;
 pub mod resource;
 pub mod termination;
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use crate::reference::TwinPass;
@@ -34,11 +36,16 @@ pub struct Step {
     /// The main pass this step is, or decides about.
     pub pass: u32,
     /// What it reads and writes; layouts, barriers, load and store ops follow from it.
-    pub accesses: Vec<Access>,
+    pub accesses: Arc<Vec<Access>>,
     pub work: Work,
 }
 
 impl Step {
+    /// A step that draws.
+    pub fn drawn(name: String, group: Group, pass: u32, accesses: Vec<Access>, draw: Draw) -> Self {
+        Self { name, group, pass, accesses: accesses.into(), work: Work::Draw(draw) }
+    }
+
     /// The pass without its number: `main_pass`.
     pub fn pass_name(&self) -> &str {
         self.name.split(' ').next().unwrap_or(&self.name)
@@ -116,13 +123,16 @@ pub enum Work {
     },
 }
 
+/// A specialization constant: its name and its value, a number of any type as its 32 bits.
+pub type Constant = (&'static str, u32);
+
 /// A compute step of a structure's build, run in slices.
 #[derive(Clone, Debug)]
 pub struct Dispatch {
     /// Compute shader, with its variant.
     pub shader: String,
     /// Specialization constants, by name.
-    pub constants: Vec<(&'static str, u32)>,
+    pub constants: Vec<Constant>,
     /// What is bound, by the names in the shader.
     pub bound: Vec<(&'static str, Resource)>,
     /// All of it: `first` is 0, `end` the number of invocations.
@@ -141,9 +151,9 @@ pub struct Draw {
     pub bound: f32,
     pub test: DepthTest,
     /// Fragment shader, with its variant; none where only the count matters.
-    pub shader: Option<String>,
+    pub shader: Option<Arc<str>>,
     /// Specialization constants, by name.
-    pub constants: Vec<(&'static str, u32)>,
+    pub constants: Arc<Vec<Constant>>,
     /// Put under what is there [KW03 §1.1], rather than replacing it.
     pub blend: bool,
     /// The same in f64; none where a pixel is not changed.
@@ -179,10 +189,15 @@ impl Draw {
             depth: 1.0,
             bound: 1.0,
             test: DepthTest::NONE,
-            shader: Some(shader.to_owned()),
-            constants: Vec::new(),
+            shader: Some(shader.into()),
+            constants: Arc::default(),
             blend: false,
             twin: Some(twin),
         }
+    }
+
+    /// Adds specialization constants.
+    pub fn specialize(&mut self, constants: impl IntoIterator<Item = Constant>) {
+        Arc::make_mut(&mut self.constants).extend(constants);
     }
 }

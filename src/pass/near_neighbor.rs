@@ -1,7 +1,7 @@
 //! Intermediate pass of near-neighbor skipping [Thesis §5.3].
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Needs, Step, constants, cull};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
@@ -25,12 +25,11 @@ pub fn near_neighbor(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: 
     };
     let shader = format!("near_neighbor.frag:{}", needs.variant(vec![variant]));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
-    draw.constants.push(constants::samples(scene));
-    draw.constants.push(constants::depth_bits(scene));
-    draw.constants.extend(constants::near_neighbor(scene));
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
+    draw.specialize(constants::near_neighbor(scene));
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
     }
     cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
-    Step { name: format!("near_neighbor #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
+    Step::drawn(format!("near_neighbor #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

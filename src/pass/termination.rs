@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work, constants, cull};
+use super::{Draw, Faces, Group, Step, constants, cull};
 use crate::reference;
 use crate::scene::Scene;
 
@@ -18,8 +18,7 @@ pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     ];
     let shader = format!("termination.frag:{}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::termination::termination);
-    draw.constants.push(constants::samples(scene));
-    draw.constants.push(constants::depth_bits(scene));
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
-    Step { name: format!("termination #{pass}"), group: Group::Intermediate, pass, accesses, work: Work::Draw(draw) }
+    Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

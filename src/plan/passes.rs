@@ -1,10 +1,14 @@
 //! The one table of methods: which passes, in which order.
 
+use std::collections::HashSet;
+use std::hash::Hash;
+use std::sync::Arc;
+
 use crate::pass::cull::{Form, Mark};
-use crate::pass::resource::Resource;
+use crate::pass::resource::{Access, Resource};
 use crate::pass::{
-    Needs, Step, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy, near_neighbor,
-    termination,
+    Constant, Needs, Step, Work, alive, block_skip, build, clear, direction, entry, fused, main_pass, mark_copy,
+    near_neighbor, termination,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodName};
@@ -18,10 +22,59 @@ pub const BATCH: u32 = 8;
 /// The bound of main passes that are switched on and off only: rays that go on hold 0, others 0.5 or 1.
 const SWITCH: f32 = 0.25;
 
+/// Steps before the first main pass, those of most structures counted.
+const STEPS_BEFORE: usize = 32;
+
+/// Steps in order. Those of thousands of passes hardly differ, so they hold one list of accesses, one of constants and one
+/// shader's name together.
+#[derive(Default)]
+struct Steps {
+    list: Vec<Step>,
+    accesses: HashSet<Arc<Vec<Access>>>,
+    constants: HashSet<Arc<Vec<Constant>>>,
+    shaders: HashSet<Arc<str>>,
+}
+
+impl Steps {
+    /// With room for a frame of so many passes: growing would take twice the memory for a moment.
+    fn with_room(passes: u32, method: MethodName, form: Option<Form>) -> Self {
+        let decides = form.is_some() && !method.fused();
+        let copies = form.is_some_and(|form| form.mark == Mark::Copy);
+        let a_pass = 1 + usize::from(decides) + usize::from(copies);
+        let room = a_pass * passes as usize + (passes / BATCH) as usize;
+        Self { list: Vec::with_capacity(room + STEPS_BEFORE), ..Self::default() }
+    }
+
+    fn push(&mut self, mut step: Step) {
+        share(&mut self.accesses, &mut step.accesses);
+        if let Work::Draw(draw) = &mut step.work {
+            share(&mut self.constants, &mut draw.constants);
+            if let Some(shader) = &mut draw.shader {
+                share(&mut self.shaders, shader);
+            }
+        }
+        self.list.push(step);
+    }
+
+    fn extend(&mut self, steps: impl IntoIterator<Item = Step>) {
+        steps.into_iter().for_each(|step| self.push(step));
+    }
+}
+
+/// Takes what was seen before in place of its equal.
+fn share<T: ?Sized + Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>) {
+    match seen.get(of_step) {
+        Some(before) => *of_step = before.clone(),
+        None => {
+            seen.insert(of_step.clone());
+        }
+    }
+}
+
 /// Steps of a frame, in order.
 pub fn steps(scene: &Scene, needs: Needs, passes: u32, form: Option<Form>) -> Vec<Step> {
     let method = &scene.settings.method;
-    let mut steps = Vec::new();
+    let mut steps = Steps::with_room(passes, method.name, form);
     if method.name == MethodName::RcBlock && needs.skips {
         steps.push(build::cell_range(&Grid::new(&scene.field, BLOCK as u32)));
     }
@@ -64,12 +117,12 @@ pub fn steps(scene: &Scene, needs: Needs, passes: u32, form: Option<Form>) -> Ve
         }
         _ => steps.extend((0..passes).map(|pass| main_pass::main_pass(scene, needs, pass, None))),
     }
-    steps
+    steps.list
 }
 
 /// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
 fn switched(
-    steps: &mut Vec<Step>,
+    steps: &mut Steps,
     scene: &Scene,
     needs: Needs,
     (passes, form, first): (u32, Form, u32),
@@ -91,7 +144,7 @@ fn switched(
 
 /// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
 /// count of rays left, with a target `beside` it.
-fn decided(steps: &mut Vec<Step>, pass: u32, form: Form, beside: Option<Resource>) {
+fn decided(steps: &mut Steps, pass: u32, form: Form, beside: Option<Resource>) {
     if form.mark == Mark::Copy {
         steps.push(mark_copy::mark_copy(pass));
     }

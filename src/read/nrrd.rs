@@ -117,7 +117,7 @@ fn files(path: &Path, header: &Header, several: &Several, subdim: Option<usize>)
                 "name as many files as the sizes ask for".into(),
             )
         }
-        _ if files > 0 && slowest as u64 % files == 0 => Ok(files),
+        _ if files > 0 && (slowest as u64).is_multiple_of(files) => Ok(files),
         _ => bad(
             format!("names {files} files, which do not share the {slowest} entries of the slowest axis evenly"),
             "name as many files as the slowest axis has entries, or a part of that".into(),

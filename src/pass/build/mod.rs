@@ -94,7 +94,7 @@ fn dispatch(
         slice,
         cells: cells as u32,
     });
-    Step { name, group: Group::Structure, pass: 0, accesses, work }
+    Step { name, group: Group::Structure, pass: 0, accesses: accesses.into(), work }
 }
 
 /// Distances as packed, to the texture `to`.
@@ -103,7 +103,7 @@ fn unpack(to: Resource) -> Step {
         name: to.name().to_owned(),
         group: Group::Structure,
         pass: 0,
-        accesses: vec![Usage::CopySource.of(Resource::DistanceBytes), Usage::CopyTarget.of(to)],
+        accesses: vec![Usage::CopySource.of(Resource::DistanceBytes), Usage::CopyTarget.of(to)].into(),
         work: Work::Unpack { from: Resource::DistanceBytes, to },
     }
 }

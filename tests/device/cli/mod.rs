@@ -103,7 +103,7 @@ fn viewport_beyond_the_limit(device: &Arc<Device>) {
 fn unknown_device(device: &Arc<Device>) {
     let place = Place::new();
     for wanted in ["nonesuch", "77"] {
-        let parts = [wanted, "no device has that index or name", &device.info.name, "choose another"];
+        let parts = [wanted, "no device has that name", &device.info.name, "choose another"];
         place.refused(&format!("render {SMALL} --device {wanted} -o a.png"), 4, &parts);
     }
 }
@@ -148,7 +148,7 @@ fn info_writes_json(device: &Arc<Device>) {
 /// The keys of every run: those of DESIGN.md and what was added to them.
 const KEYS: &str = "build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver error fragments frame_ms \
                     frame_ms_stats gpu_ms gpu_ms_per_pass ideal invocations left_out mark memory method notes orbit passes plan \
-                    record_ms record_ms_stats saved scene self_check settings version view";
+                    record_ms record_ms_stats saved scene self_check settings texture version view warnings";
 
 fn keys(run: &Value) -> Vec<&str> {
     run.as_object().unwrap().keys().map(String::as_str).collect()
