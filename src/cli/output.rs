@@ -67,9 +67,14 @@ fn seen_from(folder: &Path, file: &Path) -> Option<PathBuf> {
 pub fn warn(runs: &[Run]) {
     let mut said = BTreeSet::new();
     for run in runs {
-        for warning in run.warnings.iter().filter(|warning| said.insert((&run.scene, *warning))) {
-            write_standard_error(&format!("warning: {}: {}\n", run.scene, warning));
-        }
+        say("warning", &run.scene, run.warnings.iter().filter(|warning| said.insert((&run.scene, *warning))));
+    }
+}
+
+/// Says what is to be known of a scene on standard error, one line each: `warning: fuel: ...`.
+pub fn say<'a>(what: &str, scene: &str, texts: impl IntoIterator<Item = &'a String>) {
+    for text in texts {
+        write_standard_error(&format!("{what}: {scene}: {text}\n"));
     }
 }
 

@@ -11,7 +11,7 @@ use super::output;
 use crate::error::Result;
 use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
-use crate::measure::write::{is_standard_output, write_standard_error, write_standard_output};
+use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::pass::resource::Resource;
 use crate::plan::{self, LeftOut};
 use crate::read;
@@ -93,9 +93,9 @@ impl Plan {
         let form = plan::form(&scene, plan::papers_form(settings.method.name))?;
         let plan = plan::plan(&scene, form)?;
         let warnings = plan::warnings(&scene, &plan);
-        for warning in &warnings {
-            write_standard_error(&format!("warning: {}: {warning}\n", scene_name(&settings)));
-        }
+        let name = scene_name(&settings);
+        output::say("note", &name, &plan::notes(&scene));
+        output::say("warning", &name, &warnings);
         if let Some(file) = &self.json {
             output::write_json(file, &to_json(&scene, &plan, warnings))?;
             if is_standard_output(file) {

@@ -82,6 +82,7 @@ impl Render {
             let folder = file.parent().unwrap_or(Path::new(""));
             output::write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
         }
+        output::say("note", &run.scene, &run.notes);
         output::warn(std::slice::from_ref(&run));
         // The picture may be on standard output.
         write_standard_error(&table::table(std::slice::from_ref(&run)));

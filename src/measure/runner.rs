@@ -20,7 +20,6 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings, Settings};
 use crate::vulkan::Device;
 
@@ -262,7 +261,7 @@ impl<'a> Runner<'a> {
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
-        let mut notes = reading(&entry.scene);
+        let mut notes = plan::notes(&entry.scene);
         if let Some(check) = self.checked.map(|c| &c.check).filter(|_| entry.frame.is_some()) {
             if let Some(why) = &check.statistics {
                 notes.push(format!("shader invocations are not given: {why}"));
@@ -298,23 +297,6 @@ impl<'a> Runner<'a> {
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
     }
-}
-
-/// What was done to the volume before it was drawn.
-fn reading(scene: &Scene) -> Vec<String> {
-    let mut notes = scene.field.volume.notes.clone();
-    let ([low, high], asked) = (scene.field.range, scene.settings.volume.range);
-    if let Some(ends) = asked.filter(|ends| ends.iter().any(|end| matches!(end, RangeEnd::Percentile(_)))) {
-        notes.push(format!("the scalar range {} to {} is {low} to {high}", ends[0], ends[1]));
-    }
-    if scene.field.missing > 0 {
-        let becomes = match scene.field.holes {
-            Some(_) => "cells with one are transparent",
-            None => "NaN, no data and -inf stand for the low end of the range, +inf for the high end",
-        };
-        notes.push(format!("{} voxels have no finite value: {becomes}", scene.field.missing));
-    }
-    notes
 }
 
 /// What may make a run's picture mislead.

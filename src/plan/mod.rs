@@ -9,7 +9,7 @@ mod view;
 mod warnings;
 
 pub use view::{Region, View};
-pub use warnings::warnings;
+pub use warnings::{notes, warnings};
 
 use std::collections::BTreeSet;
 

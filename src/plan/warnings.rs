@@ -1,7 +1,8 @@
-//! What may make a picture mislead: one sentence each, with what to try.
+//! What is to be known of a picture: what was done to its volume, and what may make it mislead, with what to try.
 
 use super::Plan;
 use crate::scene::Scene;
+use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Filter, VolumeTexture};
 use crate::scene::texture::{TextureChoice, Within};
 use crate::structure::cells::any_interesting;
@@ -14,14 +15,32 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     warnings
 }
 
+/// What was done to the volume before it was drawn.
+pub fn notes(scene: &Scene) -> Vec<String> {
+    let mut notes = scene.field.volume.notes.clone();
+    let ([low, high], asked) = (scene.field.range, scene.settings.volume.range);
+    if let Some(ends) = asked.filter(|ends| ends.iter().any(|end| matches!(end, RangeEnd::Percentile(_)))) {
+        notes.push(format!("the scalar range {} to {} is {low} to {high}", ends[0], ends[1]));
+    }
+    if scene.field.missing > 0 {
+        let becomes = match scene.field.holes {
+            Some(_) => "cells with one are transparent",
+            None => "NaN, no data and -inf stand for the low end of the range, +inf for the high end",
+        };
+        notes.push(format!("{} voxels are not finite, or no data: {becomes}", scene.field.missing));
+    }
+    notes
+}
+
 /// Why nothing can show, where that is certain.
 fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     let field = &scene.field;
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
+        let sides = field.extent().to_array().map(|side| format!("{side:.3}")).join(" x ");
         return Some(format!(
-            "the picture is empty: from the eye {eye:?} towards {target:?} no ray meets the volume; it lies about 0,0,0 \
-             and its longest side is 1"
+            "the picture is empty: from the eye {eye:?} towards {target:?} no ray meets the volume, which lies about 0,0,0 \
+             with the sides {sides}; choose another --eye or --target, or more pixels (--viewport)"
         ));
     }
     if any_interesting(scene) {
@@ -43,20 +62,25 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         ));
     }
     let [low, high] = field.range;
-    let [least, most] = field.extremes().map(|x| low + (high - low) * f64::from(x));
-    Some(if field.has_empty_range() {
-        format!(
-            "the picture is empty: the scalar range is the one value {low}, where x is 0 and the transfer function {} \
-             shows nothing; give another --range",
-            scene.transfer.name
-        )
-    } else {
-        format!(
-            "the picture is empty: values run from {least} to {most}, and over the scalar range {low} to {high} the \
-             transfer function {} shows nothing there; try --range {least},{most}",
-            scene.transfer.name
-        )
-    })
+    let transfer = &scene.transfer.name;
+    if field.has_empty_range() {
+        return Some(format!(
+            "the picture is empty: the scalar range is the one value {low}, where x is 0 and the transfer function \
+             {transfer} shows nothing; give another --range"
+        ));
+    }
+    // Through f32 and back: as many digits as survive that.
+    let [least, most] = field.extremes().map(|x| significant(low + (high - low) * f64::from(x)));
+    let between = if scene.settings.sampling.filter == Filter::Nearest { ", none between them" } else { "" };
+    Some(format!(
+        "the picture is empty: values run from {least} to {most}{between}, and over the scalar range {low} to {high} the \
+         transfer function {transfer} shows nothing there; try another --tf, or --range {least},{most}"
+    ))
+}
+
+/// Rounded to the digits that f32 holds for certain.
+fn significant(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// That the texture is less precise than was asked for, with how much.
