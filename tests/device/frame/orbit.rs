@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use depthleap::measure::runner::{Checked, Runner};
 use depthleap::plan::papers_form;
-use depthleap::scene::Scene;
 use depthleap::scene::settings::{MethodName, MethodSettings};
+use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
+use glam::DVec3;
 
 use super::scenes::{Stage, by, checked, differing, forms, scene};
 use crate::harness::{Need, Test, test};
@@ -78,12 +79,9 @@ fn orbit(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     for view in 0..VIEWS {
         let degrees = 360.0 * view as f64 / VIEWS as f64;
-        let mut scene = scene.clone();
         // Not head-on to any face.
-        scene.settings.camera.eye = [0.21, 0.6, 1.8];
-        scene.camera = (&scene.settings.camera).into();
-        scene.camera = scene.camera.turned(degrees);
-        scene.settings.camera.eye = scene.camera.eye.to_array();
+        let camera = Camera { eye: DVec3::new(0.21, 0.6, 1.8), ..(&scene.settings.camera).into() };
+        let scene = scene.clone().seen_by(camera.turned(degrees));
         let ert = by(&scene, MethodName::RcErt);
         let rule = stage.shoot(&ert, papers_form(MethodName::RcErt));
         let twin = stage.twin(&ert, papers_form(MethodName::RcErt));

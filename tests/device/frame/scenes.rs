@@ -8,8 +8,8 @@ use depthleap::frame::{
 use depthleap::pass::cull::Form;
 use depthleap::plan::{self, Plan};
 use depthleap::read;
-use depthleap::scene::Scene;
 use depthleap::scene::settings::{Cull, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
@@ -48,10 +48,8 @@ pub const VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
 
 /// The scene seen from one of [`VIEWS`].
 pub fn seen(scene: &Scene, (_, eye, target): (&str, [f64; 3], [f64; 3])) -> Scene {
-    let mut scene = scene.clone();
-    (scene.settings.camera.eye, scene.settings.camera.target) = (eye, target);
-    scene.camera = (&scene.settings.camera).into();
-    scene
+    let camera = Camera { eye: eye.into(), target: target.into(), ..(&scene.settings.camera).into() };
+    scene.clone().seen_by(camera)
 }
 
 /// The scene by another method.

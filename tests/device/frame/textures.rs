@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use depthleap::plan::{self, papers_form};
+use depthleap::read;
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
-use depthleap::scene::settings::{Distance, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::scene::settings::{Component, Distance, Filter, MethodName, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TransferFunction, Volume, field::NanPolicy, transfer::Knot};
 use depthleap::vulkan::Device;
@@ -39,6 +40,31 @@ fn of(device: &Arc<Device>, voxels: Voxels, tf: &str, change: impl FnOnce(&mut S
     });
     let volume = Volume::new("made", DIMS, [1.0, 1.2, 0.8], voxels).expect("a volume");
     scene.field = Arc::new(Field::of(volume, &scene.settings.volume.normalisation()).expect("a field"));
+    scene.unit = checked(device).unit;
+    scene
+}
+
+/// A scene of a file with the sparse voxels and these lines in its header: alone, or as the middle one of three components.
+fn of_file(device: &Arc<Device>, lines: &str, components: usize, change: impl FnOnce(&mut Settings)) -> Scene {
+    let Voxels::U8(voxels) = sparse() else { unreachable!("made as u8") };
+    let values: Vec<u8> = match components {
+        1 => voxels,
+        _ => voxels.iter().flat_map(|&v| [255 - v, v, v / 2]).collect(),
+    };
+    let [x, y, z] = DIMS;
+    let sizes = if components == 1 { format!("{x} {y} {z}") } else { format!("{components} {x} {y} {z}") };
+    let space = if lines.contains("space directions") { "space dimension: 3\n" } else { "" };
+    let header = format!("NRRD0005\ntype: uint8\nencoding: raw\n{space}{lines}\nsizes: {sizes}\n\n");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("made.nrrd");
+    std::fs::write(&path, [header.as_bytes(), &values].concat()).expect("a file");
+    let mut settings = Settings::default();
+    settings.volume.path = Some(path);
+    settings.transfer.preset = Some("surface".to_owned());
+    settings.image.size = [62, 48];
+    settings.sampling.samples_per_pass = 4;
+    change(&mut settings);
+    let mut scene = read::scene(&settings).expect("a sound scene");
     scene.unit = checked(device).unit;
     scene
 }
@@ -222,7 +248,7 @@ const SKIPPING: [MethodName; 6] = [
 /// A scene to be made on a device, by name.
 type Lawful = (&'static str, fn(&Arc<Device>) -> Scene);
 
-const LAWFUL: [Lawful; 8] = [
+const LAWFUL: [Lawful; 11] = [
     ("nearest", |device| only_100(of(device, labels(), "ramp", |s| s.sampling.filter = Filter::Nearest))),
     ("nearest, cells of four", |device| {
         only_100(of(device, labels(), "ramp", |s| {
@@ -246,6 +272,17 @@ const LAWFUL: [Lawful; 8] = [
     ("a range that clips", |device| {
         of(device, sparse(), "surface", |s| {
             (s.volume.range, s.volume.texture) = (Some([150.0, 160.0].map(Value)), VolumeTexture::Native);
+        })
+    }),
+    ("reoriented voxels", |device| {
+        of_file(device, "dimension: 3\nspace directions: (0,0,2) (-1,0,0) (0,1.5,0)", 1, |_| {})
+    }),
+    ("a tilted volume", |device| {
+        of_file(device, "dimension: 3\nspace directions: (0.8,0.6,0) (-0.48,0.64,0.6) (0.36,-0.48,0.8)", 1, |_| {})
+    }),
+    ("one of three components", |device| {
+        of_file(device, "dimension: 4\nkinds: RGB-color domain domain domain", 3, |s| {
+            s.volume.component = Some(Component::Number(1));
         })
     }),
     ("an empty range", |device| of(device, sparse(), "haze", |s| s.volume.range = Some([150.0, 150.0].map(Value)))),
