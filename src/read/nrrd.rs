@@ -67,7 +67,10 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
             let files = files(path, &header, several, *subdim)?;
             let mut with_more = 0;
             for i in 0..files {
-                let Some(name) = several.name(i) else { break };
+                let Some(name) = several.name(i) else {
+                    let problem = format!("makes no name of number {i}");
+                    return Err(Error::input(format!("{}: data file", path.display()), problem, "rename the files"));
+                };
                 let path = folder.join(name);
                 let (file, length) = super::open(&path)?;
                 let mut source = Source::plain(file, length);

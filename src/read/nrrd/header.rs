@@ -81,7 +81,7 @@ const TYPES: [(VoxelType, &[&str]); 10] = [
 pub fn read(path: &Path, stream: &mut impl BufRead, most: u64) -> Result<Header> {
     let mut lines = Lines::new(path, stream, most);
     let first = lines.next(LONGEST_MAGIC)?.unwrap_or_default();
-    let magic = first.strip_prefix(crate::read::BYTE_ORDER_MARK).unwrap_or(&first);
+    let magic = first.strip_prefix(crate::read::BYTE_ORDER_MARK).unwrap_or(&first).trim_ascii_end();
     if !MAGICS.iter().any(|known| known.as_bytes() == magic) {
         let start: String = String::from_utf8_lossy(magic).chars().take(16).collect();
         return Err(Error::input(
