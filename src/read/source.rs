@@ -10,7 +10,7 @@ pub const MOST_COUNTED: u64 = 64 << 20;
 
 enum Stream {
     Plain(BufReader<File>),
-    Packed(BufReader<Members<BufReader<File>>>),
+    Packed(Box<BufReader<Members<BufReader<File>>>>),
 }
 
 /// A file that is read from its begin to its end.
@@ -32,7 +32,7 @@ impl Source {
     pub fn packed(file: File, length: u64) -> Self {
         let members = Members::new(Packing::Gzip, BufReader::new(file));
         let most = length.saturating_mul(Packing::Gzip.ratio());
-        Self { stream: Stream::Packed(BufReader::new(members)), left: None, most, length }
+        Self { stream: Stream::Packed(Box::new(BufReader::new(members))), left: None, most, length }
     }
 
     pub fn left(&self) -> Option<u64> {

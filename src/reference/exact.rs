@@ -163,8 +163,7 @@ impl<'a> ExactIntegrator<'a> {
             // Beyond the outermost centres the field is clamped: it doesn't change along this axis.
             if below >= 0.0 && low[axis] < last {
                 // Within the cell, whatever rounding says of a very flat one.
-                let weight = |t: f64| (line.origin[axis] + t * line.direction[axis] - below).clamp(0.0, 1.0);
-                start[axis] = weight(a);
+                start[axis] = (line.origin[axis] + a * line.direction[axis] - below).clamp(0.0, 1.0);
                 rise[axis] = ((b - a) * line.direction[axis]).clamp(-start[axis], 1.0 - start[axis]);
             }
         }

@@ -66,7 +66,9 @@ pub fn each(
     (0..PARTS).into_par_iter().for_each(|part| {
         let (folder, mut numbers) = (folder(), Numbers(seed << 32 | part as u64));
         // The first numbers of seeds that are near each other are near each other too.
-        (0..8).for_each(|_| drop(numbers.below(2)));
+        for _ in 0..8 {
+            numbers.below(2);
+        }
         prepare(folder.path());
         for _ in 0..count / PARTS {
             read.fetch_add(usize::from(one(folder.path(), &mut numbers)), Ordering::Relaxed);

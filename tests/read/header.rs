@@ -108,3 +108,16 @@ fn bytes_and_lines_before_the_data_are_skipped() {
     assert_eq!(with("lineskip: 1\nbyte skip: 1", b"P5\n-\x01\x02\x03\x04"), expected);
     assert_eq!(with("lineskip: 1\nbyte skip: -1", b"P5\n----\x01\x02\x03\x04"), expected);
 }
+
+/// A megabyte of gzip may hold a thousand of them: lines and names are kept up to a bound.
+#[test]
+fn lines_and_lists_without_end_are_refused() {
+    let long = [b"NRRD0001\n# ".to_vec(), vec![b'x'; 1 << 26]].concat();
+    for bytes in [gzip(&long), long] {
+        assert!(refusal(&bytes).contains("has a line of more than 67108864 bytes"));
+    }
+    let list = [format!("NRRD0001\n{SMALL}\ndata file: LIST\n").as_bytes(), &b"a\n".repeat(1 << 20)].concat();
+    assert!(refusal(&list).contains("names 1048576 files"));
+    let longer = [&list[..], b"a\n"].concat();
+    assert!(refusal(&gzip(&longer)).contains("lists more than 1048576 files"));
+}

@@ -5,10 +5,11 @@ use depthleap::scene::volume::Voxels;
 
 use crate::kit::{SMALL, bytes, bzip2, file, gzip, nrrd, read_as, read_nrrd, refusal, says};
 
+type Pack = fn(&[u8]) -> Vec<u8>;
+
 #[test]
 fn members_are_read_one_after_another() {
-    let packers: [(&str, fn(&[u8]) -> Vec<u8>); 2] = [("gzip", gzip), ("bzip2", bzip2)];
-    for (encoding, pack) in packers {
+    for (encoding, pack) in [("gzip", gzip as Pack), ("bzip2", bzip2)] {
         let lines = SMALL.replace("raw", encoding);
         for parts in [vec![&[1u8, 2][..], &[3, 4]], vec![&[1], &[], &[2, 3], &[4]], vec![&[], &[1, 2, 3, 4], &[]]] {
             let volume = read_nrrd(&lines, &parts.iter().flat_map(|part| pack(part)).collect::<Vec<_>>());
