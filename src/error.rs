@@ -1,6 +1,6 @@
 //! The one error type: which input, what is wrong with it, and what to do.
 
-/// The longest line of a message that is shown, in characters: lists of devices and keys stay whole, a kilobyte of
+/// The longest line of a message that is shown, in characters as they are shown: lists of devices and keys stay whole, a kilobyte of
 /// somebody's file does not.
 const LONGEST_LINE: usize = 1000;
 
@@ -10,9 +10,10 @@ const MOST_LINES: usize = 40;
 /// Text for a terminal: characters that steer one are escaped, and what is too long ends in an ellipsis.
 pub fn shown(text: &str) -> String {
     let line = |line: &str| {
-        let mut out = String::new();
-        for (i, c) in line.chars().enumerate() {
-            if i == LONGEST_LINE {
+        let (mut out, mut length) = (String::new(), 0);
+        for c in line.chars() {
+            length += if steers(c) { c.escape_default().len() } else { 1 };
+            if length > LONGEST_LINE {
                 out.push('\u{2026}');
                 break;
             }
@@ -82,8 +83,9 @@ impl Error {
     }
 
     fn new(kind: Kind, input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        let [input, problem, remedy] = [input.to_string(), problem.to_string(), remedy.to_string()].map(|t| shown(&t));
-        Self { kind, input, problem, remedy }
+        // Only a problem, told by a compiler, has lines: in a name a line's end is a character as any other.
+        let [input, remedy] = [input.to_string(), remedy.to_string()].map(|text| shown(&text.replace('\n', "\\n")));
+        Self { kind, input, problem: shown(&problem.to_string()), remedy }
     }
 
     pub fn exit_code(&self) -> u8 {

@@ -24,7 +24,7 @@ use self::names::{Names, Several};
 use super::source::Source;
 use super::{Choice, raw, voxels};
 use crate::error::{Error, Result};
-use crate::scene::volume::Volume;
+use crate::scene::volume::{Volume, Voxels};
 
 /// Files with something behind their data that are named; the others are counted.
 const MOST_NAMED: usize = 3;
@@ -65,22 +65,8 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
         }
         Names::Several(several, subdim) => {
             let files = files(path, &header, several, *subdim)?;
-            let mut with_more = 0;
-            for i in 0..files {
-                let Some(name) = several.name(i) else { break };
-                let path = folder.join(name);
-                let (file, length) = super::open(&path)?;
-                let mut source = Source::plain(file, length);
-                let (count, bytes) = (count / files as usize, bytes / files);
-                let data = Data { path: &path, header: &header, source: &mut source, count, bytes };
-                if let Some(what) = data.append(&mut values)? {
-                    with_more += 1;
-                    let named = with_more <= MOST_NAMED;
-                    warnings.extend(named.then(|| format!("{} holds {what}, which are not read", path.display())));
-                }
-            }
-            let others = with_more.saturating_sub(MOST_NAMED);
-            warnings.extend((others > 0).then(|| format!("{others} further files hold bytes behind their data")));
+            let share = (count / files as usize, bytes / files);
+            warnings.extend(joined(path, &header, several, share, &mut values)?);
         }
     }
     let place::Place { picked, spacing, turn, notes, warnings: more } = place;
@@ -89,6 +75,36 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
     volume.notes = notes;
     volume.warnings = [more, warnings].concat();
     Ok(volume)
+}
+
+/// Reads the voxels of several files, of each its share: so many voxels, in so many bytes. Gives what has to be told.
+fn joined(
+    path: &Path,
+    header: &Header,
+    several: &Several,
+    (count, bytes): (usize, u64),
+    values: &mut Voxels,
+) -> Result<Vec<String>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let (mut warnings, mut with_more) = (Vec::new(), 0);
+    for i in 0..several.count() {
+        let Some(name) = several.name(i) else {
+            let problem = format!("makes no name of number {i}");
+            return Err(Error::input(format!("{}: data file", path.display()), problem, "rename the files"));
+        };
+        let path = folder.join(name);
+        let (file, length) = super::open(&path)?;
+        let mut source = Source::plain(file, length);
+        let data = Data { path: &path, header, source: &mut source, count, bytes };
+        if let Some(what) = data.append(values)? {
+            with_more += 1;
+            let named = with_more <= MOST_NAMED;
+            warnings.extend(named.then(|| format!("{} holds {what}, which are not read", path.display())));
+        }
+    }
+    let others = with_more.saturating_sub(MOST_NAMED);
+    warnings.extend((others > 0).then(|| format!("{others} further files hold bytes behind their data")));
+    Ok(warnings)
 }
 
 /// What lies behind a file that is packed as a whole.

@@ -45,13 +45,13 @@ pub fn lie(directions: [DVec3; 3], orientation: Orientation) -> Lie {
     let Some(what) = in_words(axes, turn) else { return Lie::OWN };
     match orientation {
         Orientation::File => {
-            Lie { axes, turn, note: Some(format!("to lie as `space directions` say, {what}")), ..Lie::OWN }
+            let note = format!("the volume is drawn as `space directions` say (orientation = file): {what}");
+            Lie { axes, turn, note: Some(note), ..Lie::OWN }
         }
         Orientation::Index => {
             let mirrored = if units.determinant() < 0.0 { ", which shows it mirrored" } else { "" };
             let note = format!(
-                "the volume is drawn along its own axes, as orientation = index asks{mirrored}: to lie as \
-                 `space directions` say, it would be that {what}"
+                "the volume is drawn along its own axes (orientation = index){mirrored}; `space directions` say: {what}"
             );
             Lie { note: Some(note), ..Lie::OWN }
         }
@@ -107,14 +107,14 @@ fn in_words(axes: [(usize, bool); 3], turn: DQuat) -> Option<String> {
     let mut done = Vec::new();
     if axes.map(|(axis, _)| axis) != [0, 1, 2] {
         let [x, y, z] = axes.map(|(axis, _)| axis);
-        done.push(format!("axes {x}, {y} and {z} of its voxels became x, y and z"));
+        done.push(format!("axes {x}, {y} and {z} of its voxels as x, y and z"));
     }
     let mirrored: Vec<_> = axes.iter().filter(|(_, mirrored)| *mirrored).map(|(axis, _)| axis.to_string()).collect();
     if !mirrored.is_empty() {
-        done.push(format!("its voxels were put in reverse along axis {}", mirrored.join(" and axis ")));
+        done.push(format!("reversed along axis {}", mirrored.join(" and axis ")));
     }
     if turn != DQuat::IDENTITY {
-        done.push(format!("it was turned by {:.3} degrees", turn.angle_between(DQuat::IDENTITY).to_degrees()));
+        done.push(format!("turned by {:.3} degrees", turn.angle_between(DQuat::IDENTITY).to_degrees()));
     }
     (!done.is_empty()).then(|| done.join(", "))
 }

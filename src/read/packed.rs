@@ -98,13 +98,13 @@ impl<R: BufRead> Members<R> {
     /// Packed bytes behind the last member, once all are read: counted up to `most` where it is not known how many are
     /// `left` in all.
     pub fn behind(self, left: Option<u64>, most: u64) -> io::Result<u64> {
-        match (left, self.member) {
-            (Some(left), _) => Ok(left.saturating_sub(self.ended)),
-            (None, Member::None(stream)) => {
+        let Member::None(stream) = self.member else { return Ok(0) };
+        match left {
+            Some(left) => Ok(left.saturating_sub(self.ended)),
+            None => {
                 let taken = stream.taken - self.ended;
                 Ok(taken + count(stream, most)?)
             }
-            (None, _) => Ok(0),
         }
     }
 

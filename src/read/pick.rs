@@ -39,12 +39,14 @@ impl Picked {
         }
         if let Some(combined) = self.combined {
             let one = |at: usize| combined.value(&values, at);
-            return match values {
-                Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) => {
-                    Voxels::F32(self.each(|at| one(at) as f32))
+            if let Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) = values {
+                let singles = self.each(|at| one(at) as f32);
+                // The length of a vector may be beyond f32 where its parts are not.
+                if !singles.iter().any(|value| value.is_infinite()) {
+                    return Voxels::F32(singles);
                 }
-                _ => Voxels::F64(self.each(one)),
-            };
+            }
+            return Voxels::F64(self.each(one));
         }
         match &values {
             Voxels::U8(v) => Voxels::U8(self.each(|at| v[at])),

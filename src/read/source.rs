@@ -32,7 +32,7 @@ impl Source {
     pub fn packed(file: File, length: u64) -> Self {
         let members = Members::new(Packing::Gzip, BufReader::new(file));
         let most = length.saturating_mul(Packing::Gzip.ratio());
-        Self { stream: Stream::Packed(BufReader::new(members).into()), left: None, most, length }
+        Self { stream: Stream::Packed(Box::new(BufReader::new(members))), left: None, most, length }
     }
 
     pub fn left(&self) -> Option<u64> {

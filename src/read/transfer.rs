@@ -37,7 +37,11 @@ fn preset(name: &str, reference: f64) -> Result<TransferFunction> {
     TransferFunction::preset(name, reference).unwrap_or_else(|| {
         let near = nearest(name, PRESETS).map_or(String::new(), |n| format!("did you mean `{n}`? "));
         let remedy = format!("{near}choose one of {}, or give a file", PRESETS.join(", "));
-        Err(Error::usage("transfer.preset", format!("`{name}` is no built-in transfer function"), remedy))
+        Err(Error::usage(
+            "transfer.preset",
+            format!("`{}` is no built-in transfer function", name.escape_debug()),
+            remedy,
+        ))
     })
 }
 

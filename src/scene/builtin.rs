@@ -147,7 +147,7 @@ fn sizes(label: &str, text: &str) -> Result<[usize; 3]> {
         Some(&[x, y, z]) => [x, y, z],
         _ => {
             let remedy = format!("give one side or three as 64x32x16, each from 1 to {MAX_SIZE}");
-            return Err(Error::usage(label, format!("has the size `{text}`"), remedy));
+            return Err(Error::usage(label, format!("has the size `{}`", text.escape_debug()), remedy));
         }
     };
     if dims.iter().try_fold(1usize, |n, &d| n.checked_mul(d)).is_none_or(|n| n > MAX_VOXELS) {

@@ -61,6 +61,11 @@ const MAGICS: [&str; 6] = ["NRRD00.01", "NRRD0001", "NRRD0002", "NRRD0003", "NRR
 /// The first line is no longer.
 const LONGEST_MAGIC: u64 = 32;
 
+/// A line is kept while it is read, and a packed file may hold very long ones.
+const LONGEST_LINE: u64 = 1 << 26;
+/// A name takes many times the memory of its line.
+const MOST_FILES: usize = 1 << 20;
+
 const TYPES: [(VoxelType, &[&str]); 10] = [
     (VoxelType::I8, &["signed char", "int8", "int8_t"]),
     (VoxelType::U8, &["uchar", "unsigned char", "uint8", "uint8_t"]),
@@ -81,7 +86,7 @@ const TYPES: [(VoxelType, &[&str]); 10] = [
 pub fn read(path: &Path, stream: &mut impl BufRead, most: u64) -> Result<Header> {
     let mut lines = Lines::new(path, stream, most);
     let first = lines.next(LONGEST_MAGIC)?.unwrap_or_default();
-    let magic = first.strip_prefix(crate::read::BYTE_ORDER_MARK).unwrap_or(&first);
+    let magic = first.strip_prefix(crate::read::BYTE_ORDER_MARK).unwrap_or(&first).trim_ascii_end();
     if !MAGICS.iter().any(|known| known.as_bytes() == magic) {
         let start: String = String::from_utf8_lossy(magic).chars().take(16).collect();
         return Err(Error::input(
@@ -93,12 +98,19 @@ pub fn read(path: &Path, stream: &mut impl BufRead, most: u64) -> Result<Header>
     let mut fields = Fields::new(path);
     let mut names = Names::Attached;
     let mut ended = false;
-    while let Some(line) = lines.next(most)? {
+    while let Some(line) = lines.next(LONGEST_LINE)? {
+        if line.len() as u64 > LONGEST_LINE {
+            let problem = format!("has a line of more than {LONGEST_LINE} bytes");
+            return fields.bad("header", &problem, "give an NRRD file");
+        }
         if line.trim_ascii().is_empty() {
             ended = true;
             break;
         }
         if let Names::Several(Several::List(list), _) = &mut names {
+            if list.len() == MOST_FILES {
+                return fields.bad("data file", &format!("lists more than {MOST_FILES} files"), "join some of them");
+            }
             let name = file_name::name(line.trim_ascii().to_vec());
             list.push(PathBuf::from(name.or_else(|e| fields.bad("data file", &e, "rename the file"))?));
         } else if let Some(value) = fields.add(&line)? {

@@ -128,7 +128,7 @@ impl Pattern {
         found.then_some(pattern)
     }
 
-    fn name(&self, n: i64) -> Vec<u8> {
+    fn name(&self, n: i128) -> Vec<u8> {
         let width = self.width;
         let number = if self.zeros { format!("{n:0width$}") } else { format!("{n:width$}") };
         [&self.before, number.as_bytes(), &self.after].concat()
@@ -143,12 +143,14 @@ impl Several {
         }
     }
 
-    /// The name of number `i`, made when it is asked for: a header may promise very many.
+    /// The name of number `i`, made when it is asked for: a header may promise very many. None where it is no name on this
+    /// system.
     pub fn name(&self, i: u64) -> Option<PathBuf> {
         match self {
             Self::List(names) => names.get(usize::try_from(i).ok()?).cloned(),
             Self::Pattern(p) => {
-                let n = i64::try_from(i).ok()?.checked_mul(p.step)?.checked_add(p.first)?;
+                // Between the ends, and yet i * step may be beyond them.
+                let n = i128::from(p.first) + i128::from(i) * i128::from(p.step);
                 file_name::name(p.name(n)).ok().map(PathBuf::from)
             }
         }

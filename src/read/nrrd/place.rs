@@ -61,6 +61,8 @@ pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Re
     let finest = spacing[0].min(spacing[1]);
     spacing[2] = match third {
         Third::Axis(axis) => spacing_of(path, axes, axis, &mut warnings)?.unwrap_or(1.0),
+        // Seconds are no distance.
+        Third::Slices(axis) if axes[axis].kind.as_deref() == Some("time") => finest,
         Third::Slices(axis) => spacing_of(path, axes, axis, &mut warnings)?.unwrap_or(finest),
         Third::Thickness => finest,
     };
@@ -177,6 +179,10 @@ fn spacing_of(path: &Path, axes: &[Axis], at: usize, warnings: &mut Vec<String>)
 /// they are nodes. The format has no default; cells are ours, but for a file whose other fields (`stated`) tell nodes.
 fn by_ends(axis: &Axis, stated: Option<f64>) -> Option<f64> {
     let length = axis.max? - axis.min?;
+    // One sample at one place: a node, as far as anyone knows.
+    if axis.size == 1 && axis.node.is_none() && length == 0.0 {
+        return None;
+    }
     let cell = length / axis.size as f64;
     let node = (axis.size > 1).then(|| length / (axis.size - 1) as f64);
     match (axis.node, stated) {

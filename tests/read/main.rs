@@ -1,0 +1,19 @@
+//! Volume readers: what is written comes back, what is wrong is refused by name, and what is doubtful is told.
+
+mod cases;
+mod components;
+mod ends;
+mod files;
+mod frames;
+mod header;
+mod kit;
+mod messages;
+mod orientation;
+mod packed;
+mod picture;
+mod raw;
+mod refused;
+mod scene_choice;
+mod spacing;
+mod text;
+mod types;
