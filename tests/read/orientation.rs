@@ -75,7 +75,7 @@ fn every_order_and_mirroring_of_the_axes_is_exact() {
             assert_eq!(place, said);
         }
         let moved = axes != DMat3::IDENTITY;
-        assert_eq!(says(&read.notes, &["to lie as `space directions` say"]), moved, "{:?}", read.notes);
+        assert_eq!(says(&read.notes, &["as `space directions` say (orientation = file)"]), moved, "{:?}", read.notes);
     }
 }
 
@@ -86,7 +86,7 @@ fn orientation_by_index_leaves_every_voxel_where_it_is_stored() {
         assert_eq!((read.dims, read.spacing, bytes(&read)), (SIZES, SPACING, &counted(&SIZES)[..]));
         assert_eq!((read.turn, read.warnings.len()), (DQuat::IDENTITY, 0));
         let (moved, mirrored) = (axes != DMat3::IDENTITY, axes.determinant() < 0.0);
-        assert_eq!(says(&read.notes, &["along its own axes, as orientation = index asks"]), moved);
+        assert_eq!(says(&read.notes, &["along its own axes (orientation = index)"]), moved);
         assert_eq!(says(&read.notes, &["which shows it mirrored"]), mirrored, "{:?}", read.notes);
     }
 }

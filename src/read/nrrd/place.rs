@@ -79,6 +79,12 @@ pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Re
         Some(directions) => orient::lie(directions, choice.orientation),
         None => Lie::OWN,
     };
+    let unknown = |axis: &usize| axes[*axis].direction == Direction::Unknown;
+    if let Some(axis) = plane.into_iter().chain(third.axis()).find(unknown) {
+        notes.push(format!(
+            "`space directions` do not say how axis {axis} lies (nan): the volume is drawn along its own axes"
+        ));
+    }
     let left_handed = header.space.as_deref().filter(|space| LEFT_HANDED.contains(space));
     if let Some(space) = left_handed.filter(|_| choice.orientation == Orientation::File) {
         warnings.push(format!("`space` is {space}, which is left-handed: the picture shows the volume mirrored"));
