@@ -17,8 +17,8 @@ use crate::measure::accuracy::{
 };
 use crate::measure::compare;
 use crate::measure::picture::{Picture, similarity};
+use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Measured, Runner, view_in_words};
-use crate::measure::saving::Clock;
 use crate::measure::write::{self, write_atomically};
 use crate::read;
 use crate::reference::exact::ExactIntegrator;
@@ -340,7 +340,7 @@ fn exact(scene: &Scene) -> Result<Picture> {
 fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, clock: Clock) -> Result<Point> {
     let error = compare(&one.picture, truth, None)?;
     let finite = |value: f64| value.is_finite().then_some(value);
-    let (ms, timed) = Point::times(clock.timing(&one.run));
+    let (ms, timed) = Point::times(one.run.timing(clock));
     Ok(Point {
         step,
         samples_per_pass,

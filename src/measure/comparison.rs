@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::number::{milliseconds, percent, thousands};
-use super::record::Run;
-use super::saving::{self, Clock, Saved};
+use super::record::{Clock, Run, Saved};
+use super::saving;
 use super::timing::Timing;
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
@@ -56,14 +56,6 @@ pub fn label(run: &Run) -> String {
         let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
     }
     label
-}
-
-/// `bounds + copy`, or whichever of the two there is.
-pub fn forms(run: &Run) -> Option<String> {
-    match (&run.cull, &run.mark) {
-        (Some(cull), Some(mark)) => Some(format!("{cull} + {mark}")),
-        (one, other) => one.clone().or_else(|| other.clone()),
-    }
 }
 
 impl<'a> Group<'a> {
@@ -188,7 +180,7 @@ impl Grid {
     fn row(&mut self, run: &Run, baseline: Option<&Run>) -> [Cell; 15] {
         [
             value(label(run)),
-            match forms(run) {
+            match run.form() {
                 Some(forms) => value(forms),
                 None => self.absent("this method has no choice of cull and mark"),
             },

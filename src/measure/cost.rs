@@ -1,6 +1,6 @@
 //! How what a method saves depends on the cost of a sample: the same scene with ever more extra fetches.
 
-use super::comparison::{Group, forms, label};
+use super::comparison::{Group, label};
 use super::record::Run;
 use super::saving::AGAINST;
 
@@ -47,7 +47,7 @@ impl Sweep {
         if same.len() < 2 {
             return None;
         }
-        let name = |run: &Run| forms(run).map_or_else(|| label(run), |form| format!("{}, {form}", label(run)));
+        let name = |run: &Run| run.form().map_or_else(|| label(run), |form| format!("{}, {form}", label(run)));
         let time = |group: &&Group, wanted: &str| {
             let found = group.runs.iter().find(|(_, run)| name(run) == wanted)?;
             Some(1.0 - found.1.saved.as_ref()?.time?)

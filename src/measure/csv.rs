@@ -20,8 +20,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-use super::record::{Counts, Results, Run};
-use super::saving::Saved;
+use super::record::{Counts, Results, Run, Saved};
 use super::timing::Timing;
 use crate::error::{Error, Result};
 

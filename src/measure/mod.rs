@@ -14,6 +14,7 @@ pub mod accuracy;
 pub mod comparison;
 pub mod cost;
 pub mod csv;
+mod entries;
 pub mod error;
 mod frame_times;
 pub mod limits;

@@ -2,9 +2,8 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use serde::{Deserialize, Serialize};
-
 use super::number::{milliseconds, thousands};
+use super::record::OrbitFrame;
 use super::runner::{Measured, Runner, builds_on_host, no_device};
 use super::statistics::Statistics;
 use crate::error::Result;
@@ -12,26 +11,6 @@ use crate::frame::{Background, GpuFrame, Measure, Structures};
 use crate::plan;
 use crate::scene::settings::{MethodName, MethodSettings};
 use crate::scene::{Camera, Scene};
-
-/// One frame of an orbit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OrbitFrame {
-    pub frame: usize,
-    /// How far the camera has turned about its `up` axis through its target, degrees.
-    pub turned: f64,
-    /// The structure it read: `omni`, `directional`, `optimal`, `cone`; none for methods that read none.
-    pub structure: Option<String>,
-    /// Frames since the one whose view the structure was made for; none where it is for every view.
-    pub age: Option<i64>,
-    /// Fragments.
-    pub main: u64,
-    pub intermediate: u64,
-    /// Wall and CPU time of the frame, milliseconds.
-    pub frame_ms: f64,
-    pub cpu_ms: f64,
-    /// Wall time of slices of a build between this frame and the next, milliseconds; 0 with a queue of its own.
-    pub build_ms: f64,
-}
 
 /// An orbit by one method.
 #[derive(Clone, Debug)]

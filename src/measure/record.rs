@@ -55,13 +55,10 @@ use std::collections::BTreeMap;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::orbit::OrbitFrame;
-use super::saving::Saved;
-use super::timing::{HostTimes, Timings};
+pub use super::entries::{Clock, Counts, ErrorRecord, Ideal, LeftOut, OrbitFrame, PassTimes, Saved, TextureRecord};
+use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
-use crate::plan::Plan;
 use crate::scene::Settings;
-use crate::scene::texture::TextureChoice;
 
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;
@@ -112,102 +109,6 @@ pub struct Run {
     pub settings: Settings,
 }
 
-/// Fragments or invocations of a frame.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counts {
-    pub main: u64,
-    pub intermediate: u64,
-    pub main_per_pass: Vec<u64>,
-    pub intermediate_per_pass: Vec<u64>,
-}
-
-impl Counts {
-    /// From the counts of each pass, in the order of the passes.
-    pub fn of(main_per_pass: Vec<u64>, intermediate_per_pass: Vec<u64>) -> Self {
-        let sum = |counts: &[u64]| counts.iter().fold(0_u64, |sum, c| sum.saturating_add(*c));
-        Self {
-            main: sum(&main_per_pass),
-            intermediate: sum(&intermediate_per_pass),
-            main_per_pass,
-            intermediate_per_pass,
-        }
-    }
-}
-
-/// Milliseconds of each pass, in the order of the passes; medians where repeated.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PassTimes {
-    pub main: Vec<f64>,
-    pub intermediate: Vec<f64>,
-}
-
-/// The lower bound of [Thesis §5.3]'s idea, from an exact search along every ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Ideal {
-    pub main: u64,
-}
-
-/// How far a picture is from the reference, in premultiplied linear RGBA.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ErrorRecord {
-    /// Largest difference of a channel, undecided pixels left out. `null` in the file: infinite (a pixel that is
-    /// not a number).
-    #[serde(with = "null_is_infinite")]
-    pub max: f64,
-    /// Root of the mean squared difference over all pixels and channels; `null` as above.
-    #[serde(with = "null_is_infinite")]
-    pub rmse: f64,
-    /// Decibel against a peak of 1; `null` where it is infinite (`rmse` 0: equal pictures) or `rmse` is.
-    pub psnr: Option<f64>,
-    /// Pixels left out of `max`: f32 cannot decide there on which side of a jump or of a box face a sample lies.
-    pub undecided: u64,
-    /// What the picture was compared with.
-    pub reference: String,
-}
-
-/// JSON has no infinity.
-mod null_is_infinite {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        value.is_finite().then_some(*value).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
-    }
-}
-
-/// How a volume is kept on a device, and what that means for the picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TextureRecord {
-    /// Format and how voxels stand in it.
-    pub format: String,
-    /// A bound of the error of an interpolated x, as a part of the scalar range; `null` where there is none.
-    #[serde(with = "null_is_infinite")]
-    pub x_error: f64,
-    /// A bound of what that changes of a channel, premultiplied and linear.
-    pub pixel_error: f64,
-}
-
-impl TextureRecord {
-    /// Of a plan that reads the volume.
-    pub fn of(plan: &Plan) -> Option<Self> {
-        let of = |texture: TextureChoice| Self {
-            format: texture.name(),
-            x_error: texture.error,
-            pixel_error: plan.pixel_error,
-        };
-        plan.texture.map(of)
-    }
-}
-
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LeftOut {
-    pub what: String,
-    pub why: String,
-}
-
 /// The runs of one command.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Results {
@@ -220,6 +121,28 @@ pub struct Results {
 }
 
 impl Run {
+    /// `bounds + copy`, or whichever of the two there is.
+    pub fn form(&self) -> Option<String> {
+        match (&self.cull, &self.mark) {
+            (Some(cull), Some(mark)) => Some(format!("{cull} + {mark}")),
+            (one, other) => one.clone().or_else(|| other.clone()),
+        }
+    }
+
+    /// The time of a frame by a clock.
+    pub fn timing(&self, clock: Clock) -> Option<&Timing> {
+        match clock {
+            Clock::Cpu => self.host.cpu.as_ref(),
+            Clock::Gpu => self.gpu_ms.as_ref()?.total(),
+            Clock::Wall => self.host.frame.as_ref(),
+        }
+    }
+
+    /// The median time of a frame by a clock, milliseconds.
+    pub fn milliseconds(&self, clock: Clock) -> Option<f64> {
+        self.timing(clock).map(|timing| timing.value)
+    }
+
     /// # Errors
     /// As [`Results::to_json`].
     pub fn to_json(&self) -> Result<String> {

@@ -4,7 +4,6 @@
 use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
-use super::comparison;
 use super::error::compare;
 use super::frame_times::{gpu_times, host_times, pass_times};
 use super::limits;
@@ -330,8 +329,7 @@ pub fn law_of_skipping(measured: &mut [Measured]) {
     let ends_early = |one: &Measured| one.run.cull.is_some();
     let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
     let Some(rule) = ended_early.next() else { return };
-    let name =
-        |run: &Run| comparison::forms(run).map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
+    let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
     let rule_name = name(&rule.run);
     for one in ended_early {
         let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);

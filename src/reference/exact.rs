@@ -25,6 +25,8 @@
 mod cubic;
 mod panel;
 
+pub use panel::TOLERANCE;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -34,12 +36,6 @@ use crate::math::interpolate::nearest;
 use crate::math::ray::{ViewRays, box_interval};
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Scene, TransferFunction};
-
-/// Error allowed to a ray, in opacity and in colour.
-pub const TOLERANCE: f64 = 1e-10;
-
-/// The least share of the tolerance that a panel is given.
-const LEAST_SHARE: f64 = 1e-3;
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
 const BLACK: f64 = 1e-17;

@@ -1,6 +1,6 @@
 //! Depth buffers with as many sections as they tell apart, and one more.
 
-use super::battery::{COLOR, Case, Expect, SAME_SUM, Tolerance};
+use super::case::{COLOR, Case, Expect, SAME_SUM, Tolerance};
 use crate::reference::section::most_sections;
 use crate::scene::settings::{Cull, DepthFormat, Mark, MethodName};
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::battery::{Case, Expect, beer};
+use super::case::{Case, Expect, beer};
 use crate::error::Result;
 use crate::frame::{CpuFrame, Structures, cpu};
 use crate::plan::{self, papers_form};

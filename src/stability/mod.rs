@@ -2,6 +2,7 @@
 //! f64. See [`battery()`] and [`judge()`].
 
 mod battery;
+mod case;
 mod depth;
 pub mod judge;
 mod optical;
@@ -11,5 +12,6 @@ mod traps;
 mod values;
 mod views;
 
-pub use battery::{Case, Expect, Tolerance, battery};
+pub use battery::battery;
+pub use case::{Case, Expect, Tolerance};
 pub use judge::{Integrator, Outcome, Rendered, Verdict, judge};

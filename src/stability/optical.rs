@@ -1,6 +1,6 @@
 //! Optical depths from next to nothing to far more than black.
 
-use super::battery::{COLOR, Case, Expect, ROUNDING, Tolerance};
+use super::case::{COLOR, Case, Expect, ROUNDING, Tolerance};
 use crate::scene::settings::{Alpha, Classification, Offset};
 
 const GROUP: &str = "optical depth";

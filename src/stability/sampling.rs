@@ -1,6 +1,6 @@
 //! Steps, passes and thresholds at their ends.
 
-use super::battery::{COLOR, Case, Expect, ROUNDING, Tolerance};
+use super::case::{COLOR, Case, Expect, ROUNDING, Tolerance};
 use crate::math::opacity::corrected_opacity;
 use crate::scene::settings::{Classification, Last, MethodName, Settings};
 

@@ -1,6 +1,6 @@
 //! Transfer functions that are narrow, empty, single, jumping or wrong.
 
-use super::battery::{COLOR, Case, Expect, SAME_SUM, Tolerance};
+use super::case::{COLOR, Case, Expect, SAME_SUM, Tolerance};
 use crate::scene::settings::Classification;
 
 const GROUP: &str = "transfer function";

@@ -1,6 +1,6 @@
 //! What skipping may jump over: things between voxels, on seams, at the border, hardly visible, head-on.
 
-use super::battery::Case;
+use super::case::Case;
 use crate::scene::Volume;
 use crate::scene::settings::{Classification, Settings};
 use crate::scene::volume::Voxels;

@@ -1,6 +1,6 @@
 //! Voxels that are no numbers, enormous, tiny or nearly alike.
 
-use super::battery::{COLOR, Case, Expect, SAME_SUM};
+use super::case::{COLOR, Case, Expect, SAME_SUM};
 use crate::scene::Volume;
 use crate::scene::field::NanPolicy;
 use crate::scene::settings::VolumeTexture;

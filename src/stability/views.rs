@@ -1,6 +1,6 @@
 //! Shapes of the volume, places of the eye, fields of view and pictures, in a medium whose rays' lengths are known.
 
-use super::battery::{Case, Expect, ROUNDING, SAME_SUM, Tolerance};
+use super::case::{Case, Expect, ROUNDING, SAME_SUM, Tolerance};
 use crate::scene::Volume;
 use crate::scene::settings::Settings;
 use crate::scene::volume::Voxels;
@@ -56,7 +56,7 @@ pub fn cases() -> Vec<Case> {
     let view = |name: &str, change: &dyn Fn(&mut Settings)| Case::medium(VIEW, name, "constant:24", 0.03).with(change);
     let eye = |eye: [f64; 3], target: [f64; 3]| move |s: &mut Settings| (s.camera.eye, s.camera.target) = (eye, target);
     let along =
-        |case: Case| case.expect(Expect::Beer { color: super::battery::COLOR, opacity: 0.03, steps: None }, GRAZING);
+        |case: Case| case.expect(Expect::Beer { color: super::case::COLOR, opacity: 0.03, steps: None }, GRAZING);
     cases.extend([
         view("eye inside", &eye([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4])),
         view("eye in the middle", &eye([0.0; 3], [0.3, 0.2, 0.4])),
@@ -71,7 +71,7 @@ pub fn cases() -> Vec<Case> {
             (s.camera.eye, s.camera.fov_y) = ([1e-4, 2e-4, 40.0], 1.0);
         })),
         view("eye 5000 away", &|s| (s.camera.eye, s.camera.fov_y) = ([3000.0, 2500.0, 3100.0], 0.02))
-            .expect(Expect::Beer { color: super::battery::COLOR, opacity: 0.03, steps: None }, FAR),
+            .expect(Expect::Beer { color: super::case::COLOR, opacity: 0.03, steps: None }, FAR),
         view("looking away", &|s| (s.camera.eye, s.camera.target) = ([0.0, 0.1, 2.0], [0.0, 0.0, 5.0]))
             .expect(Expect::Nothing, SAME_SUM),
         view("looking away from a corner", &eye([0.5, 0.5, 0.5], [1.0, 1.2, 1.1])).expect(Expect::Nothing, SAME_SUM),

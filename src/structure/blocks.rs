@@ -3,9 +3,7 @@
 //! Departure: a block's range is taken over the 9^3 voxels that its cells interpolate. Trilinear filtering reaches the
 //! first voxels of the next block, and a range without them misses a thin wall on a seam.
 
-use rayon::prelude::*;
-
-use super::cells::ROUNDING;
+use super::ranges::{ROUNDING, ranges};
 use crate::scene::{Field, TransferFunction};
 
 /// Cells along a side of a block.
@@ -16,42 +14,6 @@ pub const CODES: usize = 256;
 
 /// Relative slack of [`range_codes`]: c / 255, rounded to f32 and multiplied by 255 again, may miss c by a little less.
 const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
-
-/// Blocks of `side`^3 cells along each side of a volume, and the minimum and maximum over each block's voxels, x
-/// fastest. Holes count as what they were filled with, which can only make a range wider.
-pub fn ranges(field: &Field, side: usize) -> ([usize; 3], Vec<[f32; 2]>) {
-    ranges_of(field.dims(), &field.values, side)
-}
-
-/// The same of any voxels that can be compared.
-pub fn ranges_of<T: Copy + PartialOrd + Send + Sync>(
-    voxels: [usize; 3],
-    values: &[T],
-    side: usize,
-) -> ([usize; 3], Vec<[T; 2]>) {
-    let [nx, ny, nz] = voxels;
-    let dims = voxels.map(|n| n.saturating_sub(1).max(1).div_ceil(side));
-    let [bx, by, _] = dims;
-    let span = |block: usize, voxels: usize| block * side..(block * side + side + 1).min(voxels);
-    let ranges = (0..dims.iter().product())
-        .into_par_iter()
-        .map(|block| {
-            let (x, y, z) = (block % bx, block / bx % by, block / (bx * by));
-            let first = values[(z * side * ny + y * side) * nx + x * side];
-            let mut range = [first; 2];
-            for z in span(z, nz) {
-                for y in span(y, ny) {
-                    for &value in &values[(z * ny + y) * nx..][span(x, nx)] {
-                        let [low, high] = range;
-                        range = [if value < low { value } else { low }, if value > high { value } else { high }];
-                    }
-                }
-            }
-            range
-        })
-        .collect();
-    (dims, ranges)
-}
 
 /// A range of x as 8-bit codes, `(low, high)`, rounded outwards; c / 255 itself becomes c. Values outside [0, 1] are
 /// clamped. In f32 throughout, as on a device.

@@ -7,14 +7,10 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::blocks;
 use super::grid::Grid;
+use super::ranges::{ROUNDING, ranges_of};
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Scene, TransferFunction};
-
-/// How far interpolation may leave [min, max] by rounding, relative to the larger magnitude of both. A unit in the
-/// last place of f32 is 2^-23 at most; a few of them, of the three interpolations, fit.
-pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
 /// How far a texture unit's value of a code may be from ours, relative: a unit in the last place or two.
 pub const CODE_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
@@ -145,7 +141,7 @@ fn of_voxels<T: Copy + Send + Sync>(
         support.meets(low, high)
     };
     let shown: Vec<bool> = codes.par_iter().map(shows).collect();
-    let (_, ranges) = blocks::ranges_of(field.dims(), &shown, grid.cell);
+    let (_, ranges) = ranges_of(field.dims(), &shown, grid.cell);
     let mut flags: Vec<bool> = ranges.into_par_iter().map(|[_, any]| any).collect();
     leave_out_holes(field, grid, &mut flags);
     flags
@@ -193,7 +189,7 @@ fn of_values<T: Copy + PartialOrd + Send + Sync>(
     grid: &Grid,
 ) -> Vec<bool> {
     if grid.cell > 1 {
-        let (_, ranges) = blocks::ranges_of(field.dims(), codes, grid.cell);
+        let (_, ranges) = ranges_of(field.dims(), codes, grid.cell);
         let meets = |[low, high]: [T; 2]| {
             let [low, high] = widened(value(low), value(high));
             support.meets(low, high)

@@ -6,6 +6,7 @@ pub mod cells;
 pub mod distance;
 pub mod grid;
 pub mod octants;
+pub mod ranges;
 pub mod square;
 pub mod wide;
 

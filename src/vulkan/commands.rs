@@ -85,7 +85,8 @@ impl Commands {
             self.device.raw.end_command_buffer(self.raw)
         };
         self.device.check("vkEndCommandBuffer", &self.name, ended)?;
-        Ok(Recorded::new(self))
+        let Self { name, device, raw, family, pool, kept, .. } = self;
+        Ok(Recorded::new(name, device, raw, family, kept.into_values().chain([pool as Kept])))
     }
 
     /// `clears`: one for each attachment, up to the last one that is cleared.

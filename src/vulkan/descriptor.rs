@@ -10,7 +10,7 @@ use super::failure::misuse;
 use super::image::{Image, Sampler};
 use super::layout::Layout;
 use super::owned::{Kept, Owned};
-use super::shader::Binding;
+use super::reflect::Binding;
 use crate::error::Result;
 
 /// What a binding is given.

@@ -5,7 +5,8 @@ use std::sync::{Mutex, PoisonError};
 
 use ash::{ext, vk};
 
-use super::instance::{API_VERSION, messenger_info};
+use super::messages::messenger_info;
+use super::version::API_VERSION;
 use crate::error::Error;
 
 /// Environment variables that choose the manifests of drivers.

@@ -34,3 +34,12 @@ fn remedy(code: vk::Result) -> &'static str {
         _ => "update the driver, or choose another device",
     }
 }
+
+/// That there is nothing to choose from.
+pub(super) fn no_device() -> Error {
+    Error::device(
+        "Vulkan",
+        "no device found",
+        "install a driver (Debian: mesa-vulkan-drivers has one that runs on the CPU)",
+    )
+}

@@ -6,9 +6,9 @@ use ash::{ext, vk};
 use serde::{Serialize, Serializer};
 
 use super::diagnosis::diagnosed;
-use super::failure::failed;
-use super::instance::{API_VERSION, Instance, version_name};
-use super::pick::no_device;
+use super::failure::{failed, no_device};
+use super::instance::Instance;
+use super::version::{API_VERSION, version_name};
 use crate::error::Result;
 
 /// NVIDIA packs its driver version in its own way.

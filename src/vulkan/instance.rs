@@ -1,24 +1,17 @@
 //! The Vulkan loader, the instance, and what the validation layer said.
 
-use std::ffi::{CStr, c_void};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::ffi::CStr;
+use std::sync::{Arc, PoisonError};
 
 use ash::{ext, vk};
 
 use super::diagnosis::diagnosed;
 use super::failure::failed;
-use super::suppressed::SUPPRESSED;
+use super::messages::{Messages, messenger_info};
+use super::version::{API_VERSION, version_name};
 use crate::error::{Error, Result};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
-
-/// The version that is needed: synchronization2 and timeline semaphores without extensions.
-pub(super) const API_VERSION: u32 = vk::API_VERSION_1_3;
-
-/// Messages kept; a barrier left out can bring one for every draw.
-const MAX_MESSAGES: usize = 1000;
-
-pub(super) type Messages = Mutex<Vec<String>>;
 
 /// A loaded Vulkan instance. Lives until the last device made from it is gone.
 pub struct Instance {
@@ -118,9 +111,10 @@ impl Instance {
         if validate {
             let debug = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);
             // SAFETY: the extension is on; the callback's data lives as long as the instance.
-            let messenger =
-                unsafe { debug.create_debug_utils_messenger(&self::messenger_info(&instance.messages), None) }
-                    .map_err(|code| failed("vkCreateDebugUtilsMessengerEXT", "Vulkan instance", code))?;
+            let messenger = unsafe {
+                debug.create_debug_utils_messenger(&super::messages::messenger_info(&instance.messages), None)
+            }
+            .map_err(|code| failed("vkCreateDebugUtilsMessengerEXT", "Vulkan instance", code))?;
             instance.messenger = Some((debug, messenger));
         }
         Ok(Arc::new(instance))
@@ -155,62 +149,9 @@ impl Drop for Instance {
     }
 }
 
-/// A Vulkan version as "1.3.250".
-pub(super) fn version_name(version: u32) -> String {
-    let [major, minor, patch] =
-        [vk::api_version_major(version), vk::api_version_minor(version), vk::api_version_patch(version)];
-    format!("{major}.{minor}.{patch}")
-}
-
 fn extensions(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<std::ffi::CString>> {
     // SAFETY: the loader has been loaded and the layer, if any, was enumerated.
     let found = unsafe { entry.enumerate_instance_extension_properties(layer) }
         .map_err(|code| failed("vkEnumerateInstanceExtensionProperties", "Vulkan loader", code))?;
     Ok(found.iter().filter_map(|one| one.extension_name_as_c_str().ok().map(CStr::to_owned)).collect())
-}
-
-/// Warnings and errors about validity and in general; performance advice is for another tool.
-pub(super) fn messenger_info(messages: &Messages) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
-    use vk::{DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type};
-    vk::DebugUtilsMessengerCreateInfoEXT::default()
-        .message_severity(Severity::WARNING | Severity::ERROR)
-        .message_type(Type::GENERAL | Type::VALIDATION)
-        .pfn_user_callback(Some(collect))
-        .user_data(std::ptr::from_ref(messages).cast_mut().cast())
-}
-
-unsafe extern "system" fn collect(
-    _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
-    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
-    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
-    messages: *mut c_void,
-) -> vk::Bool32 {
-    // SAFETY: the specification promises valid callback data; `messages` is the box that `messenger_info` was
-    // given, which outlives the instance.
-    let (data, messages) = unsafe { (&*data, &*messages.cast::<Messages>()) };
-    // SAFETY: strings of the callback data are null or end with a zero.
-    let text = |string: *const std::ffi::c_char| match string.is_null() {
-        true => String::new(),
-        false => unsafe { CStr::from_ptr(string) }.to_string_lossy().into_owned(),
-    };
-    let id = text(data.p_message_id_name);
-    if SUPPRESSED.iter().any(|(suppressed, _)| *suppressed == id) {
-        return vk::FALSE;
-    }
-    let mut line = format!("{id}: {}", text(data.p_message));
-    let objects = match data.p_objects.is_null() {
-        true => &[],
-        // SAFETY: the callback data says how many objects there are.
-        false => unsafe { std::slice::from_raw_parts(data.p_objects, data.object_count as usize) },
-    };
-    let names: Vec<_> =
-        objects.iter().map(|object| text(object.p_object_name)).filter(|name| !name.is_empty()).collect();
-    if !names.is_empty() {
-        line += &format!(" [{}]", names.join(", "));
-    }
-    let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
-    if messages.len() < MAX_MESSAGES {
-        messages.push(line);
-    }
-    vk::FALSE
 }

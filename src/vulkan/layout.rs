@@ -7,7 +7,8 @@ use ash::vk;
 use super::device::Device;
 use super::failure::misuse;
 use super::owned::Owned;
-use super::shader::{Binding, Shader};
+use super::reflect::Binding;
+use super::shader::Shader;
 use crate::error::{Error, Result};
 
 /// The layout of a pipeline.

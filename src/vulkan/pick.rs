@@ -1,5 +1,6 @@
 //! Which device to use.
 
+use super::failure::no_device;
 use super::info::DeviceInfo;
 use crate::error::{Error, Result};
 
@@ -51,15 +52,6 @@ pub fn pick(devices: &[DeviceInfo], wanted: Option<&str>) -> Result<(DeviceInfo,
         (_, [device]) => usable(device, format!("its name contains {wanted:?}")),
         (_, several) => Err(none(devices, &input, &format!("{} devices have that in their name", several.len()))),
     }
-}
-
-/// That there is nothing to choose from.
-pub(super) fn no_device() -> Error {
-    Error::device(
-        "Vulkan",
-        "no device found",
-        "install a driver (Debian: mesa-vulkan-drivers has one that runs on the CPU)",
-    )
 }
 
 fn none(devices: &[DeviceInfo], input: &str, problem: &str) -> Error {

@@ -1,4 +1,4 @@
-//! Queues and the points on their timelines that submissions reach.
+//! Queues, each with its timeline.
 //!
 //! Every queue has one timeline semaphore that counts its submissions; a submission waits for points on it, the
 //! host too. There are no semaphores besides: they would have to outlive a driver's own use of them, and Mesa 22.3
@@ -8,9 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
-use super::device::Device;
-use super::failure::{failed, misuse};
-use super::recorded::Recorded;
+use super::failure::failed;
 use crate::error::Result;
 
 /// A queue of a device. Submissions from several threads are taken one by one.
@@ -25,10 +23,10 @@ pub struct Queue {
 }
 
 pub(super) struct State {
-    raw: vk::Queue,
+    pub raw: vk::Queue,
     /// Counts the submissions that have ended.
-    timeline: vk::Semaphore,
-    submitted: u64,
+    pub timeline: vk::Semaphore,
+    pub submitted: u64,
 }
 
 impl Queue {
@@ -71,78 +69,6 @@ impl Queue {
     pub(super) fn destroy(&self, raw: &ash::Device) {
         // SAFETY: called when the device is idle, just before it goes.
         unsafe { raw.destroy_semaphore(self.lock().timeline, None) };
-    }
-
-    /// Runs the recording after all of `after` are reached. One that is still running from an earlier submission is
-    /// waited for first.
-    ///
-    /// # Errors
-    /// A recording made for another queue family, or a failing driver; a lost device names its last step.
-    pub fn submit(&self, recorded: &Recorded, after: &[&Submission]) -> Result<Submission> {
-        let (device, name) = (recorded.device(), recorded.name());
-        if recorded.family() != self.family {
-            return Err(misuse(name, format!("was recorded for queue family {}", recorded.family())));
-        }
-        recorded.wait()?;
-        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(recorded.raw())];
-        let at = |semaphore, value| {
-            vk::SemaphoreSubmitInfo::default()
-                .semaphore(semaphore)
-                .value(value)
-                .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-        };
-        let waits: Vec<_> = after.iter().map(|one| at(one.timeline, one.value)).collect();
-
-        let mut state = self.lock();
-        let value = state.submitted + 1;
-        let signals = [at(state.timeline, value)];
-        let submit = vk::SubmitInfo2::default()
-            .command_buffer_infos(&commands)
-            .wait_semaphore_infos(&waits)
-            .signal_semaphore_infos(&signals);
-        // SAFETY: the queue is locked; all handles are of this device, and the recording keeps what it uses alive
-        // until the timeline has reached `value`.
-        let result = unsafe { device.raw.queue_submit2(state.raw, &[submit], vk::Fence::null()) };
-        device.check("vkQueueSubmit2", name, result)?;
-        state.submitted = value;
-        let submission = Submission { name: name.into(), device: device.clone(), timeline: state.timeline, value };
-        drop(state);
-        recorded.submitted(&submission);
-        Ok(submission)
-    }
-}
-
-/// A point on a queue's timeline: reached when a submission and all before it on that queue have ended.
-#[derive(Clone)]
-pub struct Submission {
-    name: Arc<str>,
-    /// Holds the queue's timeline, which goes with the device.
-    device: Arc<Device>,
-    timeline: vk::Semaphore,
-    value: u64,
-}
-
-impl Submission {
-    /// Waits on the host until it is reached.
-    ///
-    /// # Errors
-    /// A lost device, with the last step begun.
-    pub fn wait(&self) -> Result<()> {
-        let (semaphores, values) = ([self.timeline], [self.value]);
-        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
-        // SAFETY: the semaphore is alive and a timeline.
-        let waited = unsafe { self.device.raw.wait_semaphores(&info, u64::MAX) };
-        self.device.check("vkWaitSemaphores", &self.name, waited)
-    }
-
-    /// Whether it is reached.
-    ///
-    /// # Errors
-    /// A lost device, with the last step begun.
-    pub fn reached(&self) -> Result<bool> {
-        // SAFETY: the semaphore is alive and a timeline.
-        let value = unsafe { self.device.raw.get_semaphore_counter_value(self.timeline) };
-        Ok(self.device.check("vkGetSemaphoreCounterValue", &self.name, value)? >= self.value)
     }
 }
 

@@ -4,10 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-use super::commands::Commands;
 use super::device::Device;
 use super::owned::Kept;
-use super::queue::Submission;
+use super::submission::Submission;
 use crate::error::Result;
 
 /// A finished recording, with all it uses.
@@ -21,17 +20,15 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Takes over the buffer of `commands`, whose recording has ended, with its pool.
-    pub(super) fn new(commands: Commands) -> Self {
-        let Commands { name, device, raw, family, pool, kept, .. } = commands;
-        Self {
-            name,
-            device,
-            raw,
-            family,
-            last: Mutex::default(),
-            _kept: kept.into_values().chain([pool as Kept]).collect(),
-        }
+    /// Takes over the buffer `raw`, whose recording has ended, with all it uses.
+    pub(super) fn new(
+        name: String,
+        device: Arc<Device>,
+        raw: vk::CommandBuffer,
+        family: u32,
+        kept: impl IntoIterator<Item = Kept>,
+    ) -> Self {
+        Self { name, device, raw, family, last: Mutex::default(), _kept: kept.into_iter().collect() }
     }
 
     pub fn name(&self) -> &str {

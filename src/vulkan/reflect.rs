@@ -6,8 +6,19 @@ use ash::vk;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Dim, ExecutionModel, Op, StorageClass};
 
-use super::shader::Binding;
 use crate::error::{Error, Result};
+
+/// A resource a shader declares.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// The variable's name, or its block's where the block has no instance name.
+    pub name: String,
+    pub set: u32,
+    pub binding: u32,
+    pub kind: vk::DescriptorType,
+    /// Elements of an array, 1 for anything else.
+    pub count: u32,
+}
 
 /// Types nest no deeper in any shader a compiler made; a module that refers to itself ends here.
 const MAX_DEPTH: u32 = 32;

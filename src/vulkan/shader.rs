@@ -2,20 +2,8 @@
 
 use ash::vk;
 
-use super::reflect::{Reflection, reflect};
+use super::reflect::{Binding, Reflection, reflect};
 use crate::error::Result;
-
-/// A resource a shader declares.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Binding {
-    /// The variable's name, or its block's where the block has no instance name.
-    pub name: String,
-    pub set: u32,
-    pub binding: u32,
-    pub kind: vk::DescriptorType,
-    /// Elements of an array, 1 for anything else.
-    pub count: u32,
-}
 
 /// A SPIR-V module with one entry point.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use depthleap::measure::accuracy::{
     text, time_svg,
 };
 use depthleap::measure::picture::similarity;
-use depthleap::measure::saving::Clock;
+use depthleap::measure::record::Clock;
 use depthleap::read;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, Settings};

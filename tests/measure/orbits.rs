@@ -1,6 +1,7 @@
 //! An orbit in a few numbers, and where it shows.
 
-use depthleap::measure::orbit::{OrbitFrame, Summary};
+use depthleap::measure::orbit::Summary;
+use depthleap::measure::record::OrbitFrame;
 use depthleap::measure::{ReportInput, Results, report_html, table};
 
 use crate::runs::results;

@@ -3,8 +3,9 @@
 use depthleap::measure::comparison::groups;
 use depthleap::measure::cost::{Row, Sweep};
 use depthleap::measure::plot::cost_svg;
+use depthleap::measure::record::{Clock, Saved};
 use depthleap::measure::report::verdict;
-use depthleap::measure::saving::{Clock, Saved, save};
+use depthleap::measure::saving::save;
 use depthleap::measure::{Results, Run, Timing, csv, table};
 
 use crate::runs::{results, run};

@@ -7,7 +7,7 @@ mod text;
 
 use serde::{Deserialize, Serialize};
 
-use super::saving::Clock;
+use super::record::Clock;
 use super::timing::Timing;
 use crate::scene::Settings;
 

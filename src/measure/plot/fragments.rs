@@ -7,10 +7,9 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, ink_at, mark, svg};
 use crate::error::Result;
-use crate::measure::comparison::{Group, forms, label};
+use crate::measure::comparison::{Group, label};
 use crate::measure::number::thousands;
-use crate::measure::orbit::OrbitFrame;
-use crate::measure::record::Run;
+use crate::measure::record::{OrbitFrame, Run};
 
 const HEIGHT: u32 = 640;
 const LEGEND_LINE: i32 = 22;
@@ -84,7 +83,7 @@ fn series<'a>(group: &Group<'a>) -> Vec<Series<'a>> {
         let several = runs.len() > 1;
         let label = label.clone();
         runs.into_iter().map(move |run| {
-            let form = forms(run).filter(|_| several).map(|f| format!(", {f}")).unwrap_or_default();
+            let form = run.form().filter(|_| several).map(|f| format!(", {f}")).unwrap_or_default();
             let counts = [&run.fragments.main_per_pass[..], &run.fragments.intermediate_per_pass[..]];
             Series { label: format!("{label}{form}"), counts }
         })

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, ink_at, svg};
 use crate::error::Result;
-use crate::measure::comparison::{Group, forms, label};
+use crate::measure::comparison::{Group, label};
 use crate::measure::number::milliseconds;
 use crate::measure::record::Run;
 use crate::measure::timing::Timing;
@@ -70,7 +70,7 @@ fn host_bars(group: &Group) -> Bars {
 }
 
 fn bar_label(run: &Run) -> String {
-    forms(run).map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
+    run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
 }
 
 fn draw<'a>(area: &Area<'a>, bars: &[Bar], axis: &str) -> Drawn<'a> {

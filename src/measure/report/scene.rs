@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use super::ReportInput;
 use super::html::{Html, escape};
 use crate::error::{Error, Result};
-use crate::measure::comparison::{Grid, Group, forms, label};
+use crate::measure::comparison::{Grid, Group, label};
 use crate::measure::cost::Sweep;
 use crate::measure::number::bytes;
-use crate::measure::orbit::{OrbitFrame, Summary};
+use crate::measure::orbit::Summary;
 use crate::measure::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
-use crate::measure::record::Run;
+use crate::measure::record::{OrbitFrame, Run};
 use crate::scene::texture::Within;
 
 /// # Errors
@@ -99,7 +99,7 @@ fn orbits(page: &mut Html, group: &Group) {
 }
 
 fn name(run: &Run) -> String {
-    forms(run).map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
+    run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
 }
 
 fn pictures(page: &mut Html, group: &Group, input: &ReportInput) -> Result<()> {

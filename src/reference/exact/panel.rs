@@ -3,9 +3,14 @@
 use std::sync::LazyLock;
 
 use super::cubic::Cubic;
-use super::{LEAST_SHARE, TOLERANCE};
 use crate::math::interpolate::mix;
 use crate::scene::transfer::{Knot, TransferFunction};
+
+/// Error allowed to a ray, in opacity and in colour.
+pub const TOLERANCE: f64 = 1e-10;
+
+/// The least share of the tolerance that a panel is given.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// Points of the Gauss-Legendre rule: order 12 in the length of a panel.
 const POINTS: usize = 6;

@@ -7,8 +7,8 @@ use depthleap::glsl;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::shared::Slice;
-use depthleap::structure::blocks;
 use depthleap::structure::grid::Grid;
+use depthleap::structure::ranges;
 use depthleap::vulkan::{
     Buffer, Commands, ComputePipeline, DescriptorSet, Device, Image, ImageInfo, Place, Queue, Recorded, Region,
     Resource, Sampler, Scope, Shader, vk,
@@ -126,7 +126,7 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
     with_both(|device| {
         let (graphics, compute) = (&device.graphics, &device.compute);
         let field = field([19, 17, 9]);
-        let (_, expected) = blocks::ranges(&field, 8);
+        let (_, expected) = ranges::ranges(&field, 8);
         let volume = Image::new(
             device,
             ImageInfo {
