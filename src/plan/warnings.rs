@@ -54,9 +54,8 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     }
     let count = field.values.len();
     if field.missing == count {
-        return Some(format!(
-            "the picture is empty: every voxel is NaN, infinite or no data; check --no-data and --nan"
-        ));
+        let every = "the picture is empty: every voxel is NaN, infinite or no data; check --no-data and --nan";
+        return Some(every.to_owned());
     }
     if field.holes.as_ref().is_some_and(|holes| holes.iter().all(|hole| *hole)) {
         return Some(format!(

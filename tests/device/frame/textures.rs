@@ -155,7 +155,8 @@ fn named_format_is_warned_of(device: &Arc<Device>) {
     (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
     let off = largest(&native, &Stage::new(device).shoot(&exact, None));
     let error = native.plan.texture.expect("a texture").error;
-    let warned = plan::warnings(&scene, &native.plan).iter().any(|warning| warning.contains("--filter exact"));
+    let warned =
+        plan::warnings(&scene, &native.plan).iter().any(|warning| warning.contains("an interpolated x is off"));
     assert_eq!(warned, error > scene.settings.volume.precision, "{error:e}");
     assert!(off <= native.plan.pixel_error, "{off:e} off where {:e} is stated", native.plan.pixel_error);
     // What is not warned of is not far off.
