@@ -21,7 +21,11 @@ pub fn shown(text: &str) -> String {
         }
         out
     };
-    text.split('\n').take(MOST_LINES).map(line).collect::<Vec<_>>().join("\n")
+    let mut lines: Vec<String> = text.split('\n').take(MOST_LINES).map(line).collect();
+    if text.split('\n').nth(MOST_LINES).is_some() {
+        lines.push('\u{2026}'.to_string());
+    }
+    lines.join("\n")
 }
 
 /// Whether a character does something else than show: controls, and those that turn the direction of writing or break a

@@ -101,6 +101,17 @@ fn percentiles_are_values_that_so_many_voxels_do_not_exceed() {
     assert!(error.contains("500, 50%") && error.contains("500 to 49"), "{error}");
 }
 
+/// Of 1 to 100 so many per cent do not exceed the value of that number.
+#[test]
+fn whole_percentiles_of_a_hundred_values_are_the_values() {
+    for percent in 0..=100u8 {
+        let voxels = Voxels::F32((1..=100u8).map(f32::from).collect());
+        let ends = [Percentile(f64::from(percent)), Percentile(100.0)];
+        let how = Normalisation { range: Some(ends), ..Normalisation::default() };
+        assert_eq!(row(voxels, &how).range, [f64::from(percent.max(1)), 100.0]);
+    }
+}
+
 #[test]
 fn no_data_is_treated_as_nan_by_every_policy() {
     let field = |nan| {
@@ -225,7 +236,9 @@ fn auto_takes_the_smallest_format_that_is_precise_enough() {
     assert_eq!(kept(mask(), coarse(), |s| s.sampling.filter = Filter::Exact), (Kept::Stored, TexelFormat::R8));
     // Two codes of 65536 fill the range: f32 itself rounds each to 2^-24 of them all.
     let narrow = || Voxels::U16(vec![60_000, 60_001, 60_000, 60_001, 60_001, 60_000, 60_000, 60_001]);
-    assert_eq!(kept(narrow(), coarse(), |_| {}), (Kept::Spread, TexelFormat::R16));
+    assert_eq!(kept(narrow(), coarse(), |_| {}), (Kept::Stretched, TexelFormat::R16));
+    // Nothing is interpolated: the codes themselves are exact.
+    assert_eq!(kept(narrow(), coarse(), |s| s.sampling.filter = Filter::Nearest), (Kept::Stored, TexelFormat::R16));
     assert_eq!(
         kept(narrow(), coarse(), |s| s.volume.texture = VolumeTexture::Native),
         (Kept::Stored, TexelFormat::R16)

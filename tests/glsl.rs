@@ -121,7 +121,7 @@ fn missing_include_is_named() {
 fn variant_lines_are_checked() {
     let copy = copy();
     for (line, says) in [
-        ("//@variants plain", "is no known line"),
+        ("//@variants plain", "is not a known line"),
         ("//@also more", "there is no variant that `more` goes with"),
         ("//@variant", "this variant has no name"),
         ("//@variant holes", "the variant `holes` is there twice"),

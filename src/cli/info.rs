@@ -25,7 +25,7 @@ use crate::vulkan::{Device, DeviceInfo, Instance, pick};
   depthleap info --device nvidia
   depthleap info --json - | jq '.devices[].auto'")]
 pub struct Info {
-    /// Only this device, by its index or part of its name
+    /// Only this device, by its index (a whole number) or a part of its name that no other has
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
     /// Write it as JSON too; for - to standard output, instead of the text

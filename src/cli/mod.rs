@@ -86,7 +86,7 @@ pub fn main() -> ExitCode {
             if !error.use_stderr() || shown(&text) == text {
                 error.exit();
             }
-            write_standard_error(&shown(&text));
+            write_standard_error(&format!("{}\n", shown(&text).trim_end()));
             return ExitCode::from(2);
         }
     };

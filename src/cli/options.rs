@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::error::Result;
+use crate::error::{Result, shown};
 use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
@@ -55,10 +55,10 @@ pub struct SceneOptions {
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true)]
     skip: Option<i64>,
     /// Value shown of voxels that have several (colours, vectors): a number from 0, luminance (of Rec. 709) or magnitude
-    #[arg(long, value_name = "0..N|luminance|magnitude")]
+    #[arg(long, value_name = "0..N|luminance|magnitude", allow_negative_numbers = true)]
     component: Option<Component>,
     /// Volume shown of a file that holds several, or slice of one that is a stack, counted from 0
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     frame: Option<usize>,
     /// Axes the volume is drawn along: those its file states, or those of its stored voxels [default: file]
     #[arg(long, value_name = "AXES")]
@@ -292,7 +292,8 @@ pub fn scene_name(settings: &Settings) -> String {
         (None, None) if transfer.points.is_some() => "points".to_owned(),
         (None, None) => PRESETS[0].to_owned(),
     };
-    format!("{}, {tf}", file.unwrap_or_else(built_in))
+    // A name may hold what a terminal obeys.
+    shown(&format!("{}, {tf}", file.unwrap_or_else(built_in)).replace('\n', "\\n"))
 }
 
 /// Every method that is shown for a scene when none is asked for.
@@ -309,13 +310,13 @@ pub const BENCH_METHODS: [MethodName; 8] = [
 
 /// `256,256,128` as sizes of a volume.
 fn counts(text: &str) -> Result<[usize; 3], String> {
-    list(text, |part| part.parse().ok().filter(|n| *n > 0), "no number of voxels of at least 1")
+    list(text, |part| part.parse().ok().filter(|n| *n > 0), "not a number of voxels of at least 1")
 }
 
 /// `0,255` or `1%,99%` as the ends of a scalar range.
 fn range(text: &str) -> Result<[RangeEnd; 2], String> {
     let ends = text.split(',').map(str::parse).collect::<Result<Vec<RangeEnd>, _>>()?;
-    ends.try_into().map_err(|ends: Vec<_>| format!("2 ends are needed, {} are given", ends.len()))
+    ends.try_into().map_err(|ends: Vec<_>| format!("2 ends are needed, and the number given is {}", ends.len()))
 }
 
 /// A finite number.
@@ -326,19 +327,19 @@ fn number(text: &str) -> Result<f64, String> {
 
 /// `1,2,3` as N finite numbers.
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    list(text, |part| part.parse().ok().filter(|n: &f64| n.is_finite()), "no finite number")
+    list(text, |part| part.parse().ok().filter(|n: &f64| n.is_finite()), "not a finite number")
 }
 
-/// N entries with commas between; `no` says what an entry is that `entry` does not take.
+/// N entries with commas between; `no` says what an entry is not that `entry` does not take.
 fn list<T, const N: usize>(text: &str, entry: impl Fn(&str) -> Option<T>, no: &str) -> Result<[T; N], String> {
     let one = |part: &str| entry(part.trim()).ok_or_else(|| format!("`{part}` is {no}"));
     let entries: Vec<T> = text.split(',').map(one).collect::<Result<_, _>>()?;
-    entries.try_into().map_err(|e: Vec<T>| format!("{N} numbers are needed, {} are given", e.len()))
+    entries.try_into().map_err(|e: Vec<T>| format!("{N} numbers are needed, and the number given is {}", e.len()))
 }
 
 /// `500x500` as width and height.
 fn viewport(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once('x').ok_or("give WIDTHxHEIGHT, 500x500 for example")?;
-    let side = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
+    let side = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is not a number of pixels"));
     Ok([side(width)?, side(height)?])
 }

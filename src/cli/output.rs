@@ -7,7 +7,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, shown};
 use crate::measure::Run;
 use crate::measure::write::{check_file, is_standard_output, write_standard_error, write_standard_output};
 use crate::measure::write_atomically;
@@ -74,7 +74,7 @@ pub fn warn(runs: &[Run]) {
 /// Says what is to be known of a scene on standard error, one line each: `warning: fuel: ...`.
 pub fn say<'a>(what: &str, scene: &str, texts: impl IntoIterator<Item = &'a String>) {
     for text in texts {
-        write_standard_error(&format!("{what}: {scene}: {text}\n"));
+        write_standard_error(&format!("{what}: {}\n", shown(&format!("{scene}: {text}").replace('\n', "\\n"))));
     }
 }
 

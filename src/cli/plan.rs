@@ -4,15 +4,15 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::options::{MethodOptions, SceneOptions, scene_name};
 use super::output;
-use crate::error::Result;
 use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
 use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::pass::resource::Resource;
+use crate::pass::{Constant, Step, Work};
 use crate::plan::{self, LeftOut};
 use crate::read;
 use crate::scene::Scene;
@@ -53,7 +53,7 @@ struct PlanJson<'a> {
     passes: u32,
     /// x, y, width, height in pixels.
     region: [u32; 4],
-    steps: Vec<StepJson<'a>>,
+    steps: StepsJson<'a>,
     /// What frames draw into.
     targets: Vec<ResourceJson>,
     /// All that steps read or write, in bytes on a device; null where only building it tells.
@@ -66,6 +66,9 @@ struct PlanJson<'a> {
     warnings: Vec<String>,
 }
 
+/// Steps that are made as they are written: a long frame has very many.
+struct StepsJson<'a>(&'a [Step]);
+
 #[derive(Serialize)]
 struct StepJson<'a> {
     name: &'a str,
@@ -73,7 +76,27 @@ struct StepJson<'a> {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
     shader: Option<&'a str>,
-    constants: Vec<(&'static str, u32)>,
+    constants: &'a [Constant],
+}
+
+impl Serialize for StepsJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(StepJson::of))
+    }
+}
+
+impl<'a> StepJson<'a> {
+    fn of(step: &'a Step) -> Self {
+        let names = |writes: bool| {
+            step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
+        };
+        let (shader, constants): (Option<&str>, &[Constant]) = match &step.work {
+            Work::Draw(draw) => (draw.shader.as_deref(), &draw.constants),
+            Work::Dispatch(dispatch) => (Some(&dispatch.shader), &[]),
+            _ => (None, &[]),
+        };
+        Self { name: &step.name, group: step.group.name(), reads: names(false), writes: names(true), shader, constants }
+    }
 }
 
 #[derive(Serialize)]
@@ -83,7 +106,7 @@ struct ResourceJson {
 }
 
 impl Plan {
-    pub fn run(&self) -> Result<()> {
+    pub fn run(&self) -> crate::Result<()> {
         let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
         output::check(&outputs)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
@@ -129,26 +152,6 @@ fn text(scene: &Scene, plan: &plan::Plan) -> String {
 }
 
 fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> PlanJson<'a> {
-    let names = |step: &crate::pass::Step, writes: bool| {
-        step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
-    };
-    let steps = plan.steps.iter().map(|step| {
-        let draw = match &step.work {
-            crate::pass::Work::Draw(draw) => Some(draw),
-            _ => None,
-        };
-        StepJson {
-            name: &step.name,
-            group: step.group.name(),
-            reads: names(step, false),
-            writes: names(step, true),
-            shader: match &step.work {
-                crate::pass::Work::Dispatch(dispatch) => Some(dispatch.shader.as_str()),
-                _ => draw.and_then(|d| d.shader.as_deref()),
-            },
-            constants: draw.map(|d| d.constants.to_vec()).unwrap_or_default(),
-        }
-    });
     let resources: Vec<(Resource, Option<u64>)> =
         plan.resources().into_iter().map(|r| (r, bytes(scene, plan, r))).collect();
     let json = |(resource, bytes): &(Resource, Option<u64>)| ResourceJson { name: resource.name(), bytes: *bytes };
@@ -161,7 +164,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> Pl
         mark: plan.form.map(|f| f.mark_name()),
         passes: plan.passes,
         region: [region.x, region.y, region.width, region.height],
-        steps: steps.collect(),
+        steps: StepsJson(&plan.steps),
         targets: resources.iter().filter(|(r, _)| r.is_target()).map(json).collect(),
         resources: resources.iter().map(json).collect(),
         bytes: resources.iter().filter_map(|(_, bytes)| *bytes).sum(),

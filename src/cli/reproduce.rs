@@ -102,7 +102,7 @@ impl Reproduce {
 
     /// The file of a data set, or why there is none.
     fn file(&self, set: &DataSet) -> std::result::Result<PathBuf, String> {
-        let Some(name) = set.file else { return Err(set.remark.unwrap_or("the volume is not to be had").to_owned()) };
+        let Some(name) = set.file else { return Err(set.remark.unwrap_or("the volume is not available").to_owned()) };
         let Some(folder) = &self.data else { return Err(format!("give the folder with {name} as --data")) };
         let path = folder.join(name);
         if path.is_file() { Ok(path) } else { Err(format!("{} is not there", path.display())) }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use ash::vk;
 use rayon::prelude::*;
 
-use crate::scene::texture::{Kept, TexelFormat, TextureChoice, code_span};
+use crate::scene::texture::{Kept, Stretch, TexelFormat, TextureChoice, code_span};
 use crate::scene::volume::Voxels;
 use crate::scene::{Field, Scene, TransferFunction};
 use crate::structure::cells::Values;
@@ -27,6 +27,7 @@ impl<'a> Texels<'a> {
 
     fn new(field: &'a Field, kept: Kept) -> Self {
         match kept {
+            Kept::Stretched => Self::stretched(field),
             Kept::Spread => Self::spread(field),
             Kept::Float => Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 },
             Kept::Stored | Kept::Widened => Self::coded(field, kept),
@@ -54,6 +55,23 @@ impl<'a> Texels<'a> {
             return Self { values, scale: 1.0, offset: 0.0 };
         }
         Self { values, scale: (high - low) / (most - least), offset: (low - least) / (most - least) }
+    }
+
+    /// Whole numbers, times one that lets them fill 16 bits.
+    fn stretched(field: &'a Field) -> Self {
+        let Stretch { least, factor } = Stretch::of(field);
+        let [low, high] = field.range;
+        let code = |value: f64| (value - least).clamp(0.0, f64::from(u16::MAX)) as u16 * factor;
+        let values = match &field.volume.voxels {
+            Voxels::U8(v) => codes(field, v, |v| code(f64::from(v))),
+            Voxels::I8(v) => codes(field, v, |v| code(f64::from(v))),
+            Voxels::U16(v) => codes(field, v, |v| code(f64::from(v))),
+            Voxels::I16(v) => codes(field, v, |v| code(f64::from(v))),
+            // Other types are not stretched.
+            _ => return Self::new(field, Kept::Float),
+        };
+        let unit = f64::from(factor) / f64::from(u16::MAX);
+        Self { values: Values::Unorm16(values.into()), scale: (high - low) * unit, offset: (low - least) * unit }
     }
 
     /// 16 bits over the values there are.

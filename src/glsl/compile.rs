@@ -76,7 +76,7 @@ pub fn variants(root: &Path, file: &str) -> Result<Vec<Module>, Broken> {
         let mut words = rest.split_whitespace();
         let kind = words.next();
         if !matches!(kind, Some("variant" | "also")) {
-            return Err(fault(format!("`//@{rest}` is no known line; write `//@variant NAME MACRO[=VALUE] ...`")));
+            return Err(fault(format!("`//@{rest}` is not a known line; write `//@variant NAME MACRO[=VALUE] ...`")));
         }
         let variant = words.next().ok_or_else(|| fault("this variant has no name".into()))?;
         let macros: Vec<(String, Option<String>)> = words

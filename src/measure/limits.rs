@@ -50,7 +50,7 @@ pub fn check_host(scene: &Scene) -> Result<()> {
     if reserved {
         return Ok(());
     }
-    let problem = format!("takes {} MiB of memory, which are not to be had", needed >> 20);
+    let problem = format!("takes {} MiB of memory, which are not available", needed >> 20);
     Err(Error::usage(picture_name(scene), problem, "choose a smaller picture"))
 }
 

@@ -45,7 +45,7 @@ impl Format {
             Some("npy") => Ok(Self::Npy),
             Some(other) => Err(Error::usage(
                 path.display(),
-                format!("has the extension `.{other}`, which is no picture format written here"),
+                format!("has the extension `.{other}`, which is not a picture format written here"),
                 "end it in .png, .exr or .npy",
             )),
             None => Err(Error::usage(

@@ -152,7 +152,7 @@ impl Run {
     /// Reads what [`Run::to_json`] wrote; `name` is the file, for the error.
     ///
     /// # Errors
-    /// When the text is no JSON, a key is missing or of another type, or the format is of another version.
+    /// When the text is not JSON, a key is missing or of another type, or the format is of another version.
     pub fn from_json(name: &str, text: &str) -> Result<Self> {
         from_json(name, text)
     }

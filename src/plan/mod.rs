@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use crate::error::{Error, Result};
 use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
-use crate::pass::{Needs, Step, Work};
+use crate::pass::{Group, Needs, Step, Work};
 use crate::reference::section::most_sections;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Cull, DepthFormat, Filter, Formats, Last, Mark, MethodName};
@@ -35,7 +35,7 @@ pub struct Plan {
     pub distance: Option<Lookup>,
     /// How the volume is kept for the steps; none where none reads it on a device.
     pub texture: Option<TextureChoice>,
-    /// A bound of what that changes of a channel, premultiplied and linear, against exact interpolation.
+    /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation.
     pub pixel_error: f64,
     pub steps: Vec<Step>,
     pub left_out: Vec<LeftOut>,
@@ -124,30 +124,7 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     let needed = samples.div_ceil(sampling.samples_per_pass);
     // Forced passes do not run for nothing either.
     let passes = if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed };
-    if passes > MOST_PASSES {
-        return Err(Error::usage(
-            format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
-            format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
-            "take longer steps or more samples a pass",
-        ));
-    }
-    let depth = scene.settings.method.depth;
-    let told_apart = most_sections(depth);
-    if scene.settings.method.name.distance().is_some() && passes > told_apart {
-        return Err(Error::usage(
-            format!("method.depth (--depth-format) {}", depth.name()),
-            format!("tells at most {told_apart} main passes apart, and this frame has {passes}"),
-            "use --depth-format d32, longer steps or more samples a pass",
-        ));
-    }
-    let samples = u64::from(passes) * u64::from(sampling.samples_per_pass);
-    if samples > MOST_SAMPLES {
-        return Err(Error::usage(
-            format!("--passes {passes} --samples-per-pass {}", sampling.samples_per_pass),
-            format!("this is {samples} samples a ray, and at most {MOST_SAMPLES} are possible"),
-            "take fewer passes or fewer samples a pass",
-        ));
-    }
+    check_passes(scene, passes)?;
     let mut left_out = Vec::new();
     let mut leave = |what: &str, why: String| left_out.push(LeftOut { what: what.to_owned(), why });
     let needs = needs::needs(scene, view.longest_samples, passes);
@@ -181,6 +158,39 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
     let error = texture.map_or(0.0, |texture| texture.error);
     let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, needs.ends);
     Ok(Plan { view, passes, form, distance, texture, pixel_error, steps, left_out })
+}
+
+/// Whether a frame of so many main passes can be run.
+///
+/// # Errors
+/// When it cannot, with what to change.
+fn check_passes(scene: &Scene, passes: u32) -> Result<()> {
+    let sampling = &scene.settings.sampling;
+    if passes > MOST_PASSES {
+        return Err(Error::usage(
+            format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
+            format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
+            "take longer steps or more samples a pass",
+        ));
+    }
+    let depth = scene.settings.method.depth;
+    let told_apart = most_sections(depth);
+    if scene.settings.method.name.distance().is_some() && passes > told_apart {
+        return Err(Error::usage(
+            format!("method.depth (--depth-format) {}", depth.name()),
+            format!("tells at most {told_apart} main passes apart, and this frame has {passes}"),
+            "use --depth-format d32, longer steps or more samples a pass",
+        ));
+    }
+    let samples = u64::from(passes) * u64::from(sampling.samples_per_pass);
+    if samples > MOST_SAMPLES {
+        return Err(Error::usage(
+            format!("--passes {passes} --samples-per-pass {}", sampling.samples_per_pass),
+            format!("this is {samples} samples a ray, and at most {MOST_SAMPLES} are possible"),
+            "take fewer passes or fewer samples a pass",
+        ));
+    }
+    Ok(())
 }
 
 /// Samples on the diagonal of the volume, the longest ray of any view.
@@ -245,10 +255,17 @@ fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], le
         Filter::Nearest => leave("interpolation", "a sample has the value of the nearest voxel".to_owned()),
         Filter::Exact => {}
     }
-    if form.is_some() && !steps.iter().any(|s| s.group == crate::pass::Group::Alive) {
-        let few = format!("there are no more than {} main passes", passes::BATCH);
-        leave("counting of rays", if uses(Resource::Stored) { few } else { "no ray is marked".to_owned() });
+    leave_out_counting(form, steps, leave);
+}
+
+/// Why rays that are left are not counted, where they are not.
+fn leave_out_counting(form: Option<Form>, steps: &[Step], leave: &mut impl FnMut(&str, String)) {
+    if form.is_none() || steps.iter().any(|step| step.group == Group::Alive) {
+        return;
     }
+    let marked = steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == Resource::Stored));
+    let few = format!("there are no more than {} main passes", passes::BATCH);
+    leave("counting of rays", if marked { few } else { "no ray is marked".to_owned() });
 }
 
 /// Bytes a pixel of a target takes.

@@ -13,7 +13,8 @@ impl Plan {
             self.steps.iter().enumerate().map(|(i, step)| format!("{:>3} {}", i + 1, line(step))).collect();
         lines.extend(self.texture.map(|texture| {
             let (name, x, pixels) = (texture.name(), Within(texture.error), Within(self.pixel_error));
-            format!("  = volume kept as {name}: x within {x}, pixels within {pixels}")
+            let on = if texture.measured { "" } else { " on a device that interpolates in f32 (none was asked)" };
+            format!("  = volume kept as {name}: x within {x}, pixels within {pixels}{on}")
         }));
         lines.extend(self.left_out.iter().map(|l| format!("  - {} left out: {}", l.what, l.why)));
         lines

@@ -27,7 +27,10 @@ pub fn notes(scene: &Scene) -> Vec<String> {
             Some(_) => "cells with one are transparent",
             None => "NaN, no data and -inf stand for the low end of the range, +inf for the high end",
         };
-        notes.push(format!("{} voxels are not finite, or no data: {becomes}", scene.field.missing));
+        notes.push(format!(
+            "{} not finite, or no data: {becomes}",
+            counted(scene.field.missing, "voxel is", "voxels are")
+        ));
     }
     notes
 }
@@ -51,14 +54,13 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     }
     let count = field.values.len();
     if field.missing == count {
-        return Some(format!(
-            "the picture is empty: all {count} voxels are NaN, infinite or no data; check --no-data and --nan"
-        ));
+        let every = "the picture is empty: every voxel is NaN, infinite or no data; check --no-data and --nan";
+        return Some(every.to_owned());
     }
     if field.holes.as_ref().is_some_and(|holes| holes.iter().all(|hole| *hole)) {
         return Some(format!(
-            "the picture is empty: every cell has one of {} voxels that are NaN, infinite or no data; try --nan replace",
-            field.missing
+            "the picture is empty: every cell has one of {} NaN, infinite or no data; try --nan replace",
+            counted(field.missing, "voxel that is", "voxels that are")
         ));
     }
     let [low, high] = field.range;
@@ -69,19 +71,20 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
              {transfer} shows nothing; give another --range"
         ));
     }
-    // Through f32 and back: as many digits as survive that.
-    let [least, most] = field.extremes().map(|x| significant(low + (high - low) * f64::from(x)));
+    let [least, most] = field.value_extremes().unwrap_or(field.range);
     let between = if scene.settings.sampling.filter == Filter::Nearest { ", none between them" } else { "" };
+    let (values, advice) = match least == most {
+        true => (format!("every value is {least}"), String::new()),
+        false => (format!("values run from {least} to {most}{between}"), format!(", or --range {least},{most}")),
+    };
     Some(format!(
-        "the picture is empty: values run from {least} to {most}{between}, and over the scalar range {low} to {high} the \
-         transfer function {transfer} shows nothing there; try another --tf, or --range {least},{most}"
+        "the picture is empty: {values}, and over the scalar range {low} to {high} the transfer function {transfer} shows \
+         nothing there; try another --tf{advice}"
     ))
 }
 
-/// Rounded to the digits that f32 holds for certain.
-fn significant(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
-}
+/// What is worth advising has an error that is so many times less.
+const CLEARLY_LESS: f64 = 2.0;
 
 /// That the texture is less precise than was asked for, with how much.
 fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
@@ -89,17 +92,20 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
     if texture.error <= settings.volume.precision {
         return None;
     }
-    let named = settings.volume.texture != VolumeTexture::Auto;
-    let exact = {
+    let by = |filter: Filter| {
         let mut other = scene.clone();
-        other.settings.sampling.filter = Filter::Exact;
-        other.settings.volume.texture = VolumeTexture::Auto;
+        (other.settings.sampling.filter, other.settings.volume.texture) = (filter, VolumeTexture::Auto);
         TextureChoice::of(&other).error
     };
-    let advice = match settings.sampling.filter {
-        Filter::Hardware if exact <= settings.volume.precision => "--filter exact holds it",
-        _ if named => "try --texture auto",
-        _ => "a wider --range would help",
+    let (auto, exact) = (by(settings.sampling.filter), by(Filter::Exact));
+    let advice = if auto <= settings.volume.precision {
+        format!("--texture auto is within {}", Within(auto))
+    } else if settings.sampling.filter == Filter::Hardware && CLEARLY_LESS * exact < texture.error {
+        format!("--filter exact is within {}", Within(exact))
+    } else if CLEARLY_LESS * auto < texture.error {
+        format!("--texture auto is within {}", Within(auto))
+    } else {
+        "a wider --range would help".to_owned()
     };
     let bound = if texture.error.is_finite() {
         format!("is off by up to {}", Within(texture.error))
@@ -111,4 +117,9 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
         texture.name(),
         Within(settings.volume.precision)
     ))
+}
+
+/// `1 voxel is`, `3 voxels are`.
+fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
 }

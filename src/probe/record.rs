@@ -144,9 +144,9 @@ pub fn read(text: &str, name: &str) -> Result<Probe> {
         version: u32,
     }
     let wrong = |problem: String| Error::input(name, problem, "give a probe.json that this program wrote");
-    let head: Head = serde_json::from_str(text).map_err(|e| wrong(format!("is no result of a probe ({e})")))?;
+    let head: Head = serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))?;
     if head.version != FORMAT {
         return Err(wrong(format!("has the format version {}, this program reads {FORMAT}", head.version)));
     }
-    serde_json::from_str(text).map_err(|e| wrong(format!("is no result of a probe ({e})")))
+    serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))
 }

@@ -3,7 +3,16 @@
 use crate::scene::builtin::nearest;
 
 /// A user knows no `u32`.
-const COUNT: &str = "expected a whole number";
+const COUNT: &str = "expected a whole number from 0 on";
+
+/// What serde calls a type, and what a user does.
+const TYPES: [(&str, &str); 5] = [
+    ("expected f64", "expected a number"),
+    ("expected u32", COUNT),
+    ("expected usize", COUNT),
+    ("expected i64", "expected a whole number"),
+    ("expected a sequence", "expected a list"),
+];
 
 /// Problem and remedy in a deserializer's message: ``unknown field `x`, expected one of `a`, `b` `` becomes
 /// "unknown key `x`" and "did you mean `a`? known are `a`, `b`"; other messages stay as they are.
@@ -17,7 +26,6 @@ pub fn explain(message: &str) -> (String, String) {
         let near = nearest(wrong, known.iter().copied()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
         return (format!("has the unknown {kind} `{wrong}`"), format!("{near}known are {}", known.join(", ")));
     }
-    let types = [("expected f64", "expected a number"), ("expected u32", COUNT), ("expected usize", COUNT)];
-    let message = types.iter().fold(message, |text, (said, meant)| text.replace(said, meant));
+    let message = TYPES.iter().fold(message, |text, (said, meant)| text.replace(said, meant));
     (format!("is wrong: {message}"), "correct it".into())
 }

@@ -32,12 +32,14 @@ use crate::scene::settings::{Component, Orientation};
 
 /// What is taken of a file that holds more than one scalar volume, and how it is laid into volume space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Choice {
-    /// Of the values of a voxel.
+pub struct Choice<'a> {
+    /// The value that is taken of several values of a voxel.
     pub component: Option<Component>,
-    /// Of the volumes of a sequence, or the slices of a stack.
+    /// The volume that is taken of a sequence, or the slice of a stack.
     pub frame: Option<usize>,
     pub orientation: Orientation,
+    /// Values that stand for none.
+    pub no_data: &'a [f64],
 }
 
 /// A volume format that says its own sizes.
@@ -85,7 +87,7 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Resu
     file.rewind().map_err(|e| unreadable(path, &e))?;
     let mut volume = match (by_magic.or(in_gzip), raw) {
         (Some(format), Some(_)) => {
-            let problem = format!("is a {} file, which says its own sizes", format.name);
+            let problem = format!("is an {} file, which says its own sizes", format.name);
             let remedy = "leave out dims, type, spacing, endian and skip";
             return Err(Error::input(path.display(), problem, remedy));
         }
@@ -116,14 +118,15 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Resu
     Ok(volume)
 }
 
-impl Choice {
-    /// Whether nothing is chosen, as it has to be for what holds one scalar volume.
+impl Choice<'_> {
+    /// Whether what is chosen is there in what holds one scalar volume: the first component of the first frame.
     ///
     /// # Errors
-    /// When a component or a frame is chosen.
+    /// When another component or frame is chosen.
     fn not_of(&self, name: impl AsRef<Path>, what: &str) -> Result<()> {
-        let chosen = self.component.map(|c| ("component", c.to_string()));
-        let Some((key, value)) = chosen.or(self.frame.map(|n| ("frame", n.to_string()))) else { return Ok(()) };
+        let component = self.component.filter(|c| *c != Component::Number(0)).map(|c| ("component", c.to_string()));
+        let frame = self.frame.filter(|n| *n != 0).map(|n| ("frame", n.to_string()));
+        let Some((key, value)) = component.or(frame) else { return Ok(()) };
         let input = format!("{}: volume.{key} (--{key})", name.as_ref().display());
         Err(Error::input(input, format!("is {value}, and {what} are one volume of one value a voxel"), "leave it out"))
     }

@@ -16,6 +16,7 @@ mod names;
 mod place;
 mod roles;
 
+use std::fs::File;
 use std::path::Path;
 
 use self::data::Data;
@@ -53,15 +54,16 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
             let data = Data { path, header: &header, source: &mut source, count, bytes };
             let behind = data.append(&mut values)?;
             let behind = behind.or(packed_rest(path, source)?);
-            warnings.extend(behind.map(|what| format!("{} holds {what}, which are not read", path.display())));
+            warnings.extend(behind.map(|what| format!("{} holds {what}, which is not read", path.display())));
         }
         Names::One(name) => {
+            let header_path = path;
             let path = folder.join(name);
-            let (file, length) = super::open(&path)?;
+            let (file, length) = data_file(header_path, &path)?;
             let mut source = Source::plain(file, length);
             let behind =
                 Data { path: &path, header: &header, source: &mut source, count, bytes }.append(&mut values)?;
-            warnings.extend(behind.map(|what| format!("{} holds {what}, which are not read", path.display())));
+            warnings.extend(behind.map(|what| format!("{} holds {what}, which is not read", path.display())));
         }
         Names::Several(several, subdim) => {
             let files = files(path, &header, several, *subdim)?;
@@ -70,7 +72,7 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
         }
     }
     let place::Place { picked, spacing, turn, notes, warnings: more } = place;
-    let mut volume = Volume::new(path.display().to_string(), picked.dims, spacing, picked.of(values))?;
+    let mut volume = Volume::new(path.display().to_string(), picked.dims, spacing, picked.of(values, choice.no_data))?;
     volume.turn = turn;
     volume.notes = notes;
     volume.warnings = [more, warnings].concat();
@@ -92,19 +94,28 @@ fn joined(
             let problem = format!("makes no name of number {i}");
             return Err(Error::input(format!("{}: data file", path.display()), problem, "rename the files"));
         };
+        let header_path = path;
         let path = folder.join(name);
-        let (file, length) = super::open(&path)?;
+        let (file, length) = data_file(header_path, &path)?;
         let mut source = Source::plain(file, length);
         let data = Data { path: &path, header, source: &mut source, count, bytes };
         if let Some(what) = data.append(values)? {
             with_more += 1;
             let named = with_more <= MOST_NAMED;
-            warnings.extend(named.then(|| format!("{} holds {what}, which are not read", path.display())));
+            warnings.extend(named.then(|| format!("{} holds {what}, which is not read", path.display())));
         }
     }
     let others = with_more.saturating_sub(MOST_NAMED);
     warnings.extend((others > 0).then(|| format!("{others} further files hold bytes behind their data")));
     Ok(warnings)
+}
+
+/// Opens a data file that a header names; gives its length too.
+fn data_file(header: &Path, path: &Path) -> Result<(File, u64)> {
+    super::open(path).map_err(|error| {
+        let remedy = format!("{}, or correct `data file` (NAME, LIST, or NAME%03d MIN MAX STEP)", error.remedy);
+        Error::input(format!("{}: data file {}", header.display(), error.input), error.problem, remedy)
+    })
 }
 
 /// What lies behind a file that is packed as a whole.

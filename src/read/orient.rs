@@ -17,19 +17,28 @@ pub struct Lie {
     /// The file's axis that becomes x, y and z, and whether it is mirrored.
     pub axes: [(usize, bool); 3],
     pub turn: DQuat,
+    /// Whether it is shown mirrored: by axes of another hand than the file's space has.
+    pub mirrored: bool,
     pub note: Option<String>,
     pub warning: Option<String>,
 }
 
 impl Lie {
     /// Along its own axes.
-    pub const OWN: Self =
-        Self { axes: [(0, false), (1, false), (2, false)], turn: DQuat::IDENTITY, note: None, warning: None };
+    pub const OWN: Self = Self {
+        axes: [(0, false), (1, false), (2, false)],
+        turn: DQuat::IDENTITY,
+        mirrored: false,
+        note: None,
+        warning: None,
+    };
 }
 
-/// How a volume lies whose axes have these directions, of any length but 0.
-pub fn lie(directions: [DVec3; 3], orientation: Orientation) -> Lie {
+/// How a volume lies whose axes have these directions, of any length but 0, in a space that may be left-handed.
+pub fn lie(directions: [DVec3; 3], left_handed: bool, orientation: Orientation) -> Lie {
     let units = directions.map(unit);
+    let turned_over = units[0].cross(units[1]).dot(units[2]) < 0.0;
+    let own = Lie { mirrored: turned_over != left_handed, ..Lie::OWN };
     let cosines = [(0, 1), (0, 2), (1, 2)].map(|(a, b)| (a, b, units[a].dot(units[b])));
     if let Some((a, b, cosine)) = cosines.into_iter().find(|(.., cosine)| cosine.abs() > SQUARE) {
         let angle = cosine.clamp(-1.0, 1.0).acos().to_degrees();
@@ -37,23 +46,21 @@ pub fn lie(directions: [DVec3; 3], orientation: Orientation) -> Lie {
             "`space directions` are sheared (axes {a} and {b} meet at {angle:.1} degrees): the volume is drawn along its \
              own axes, as if they were square to each other"
         );
-        return Lie { warning: Some(warning), ..Lie::OWN };
+        return Lie { warning: Some(warning), ..own };
     }
     let units = DMat3::from_cols(units[0], units[1], units[2]);
     let axes = nearest(&units);
     let turn = left_over(&units, axes);
-    let Some(what) = in_words(axes, turn) else { return Lie::OWN };
+    let Some(what) = in_words(axes, turn) else { return own };
     match orientation {
         Orientation::File => {
             let note = format!("the volume is drawn as `space directions` say (orientation = file): {what}");
-            Lie { axes, turn, note: Some(note), ..Lie::OWN }
+            Lie { axes, turn, mirrored: left_handed, note: Some(note), ..Lie::OWN }
         }
         Orientation::Index => {
-            let mirrored = if units.determinant() < 0.0 { ", which shows it mirrored" } else { "" };
-            let note = format!(
-                "the volume is drawn along its own axes (orientation = index){mirrored}; `space directions` say: {what}"
-            );
-            Lie { note: Some(note), ..Lie::OWN }
+            let note =
+                format!("the volume is drawn along its own axes (orientation = index); `space directions` say: {what}");
+            Lie { note: Some(note), ..own }
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use crate::scene::field::Missing;
 use crate::scene::settings::Component;
-use crate::scene::volume::{Voxels, each_type};
+use crate::scene::volume::Voxels;
 
 /// Where the voxels of a volume lie among the values of a file: at `first` + i * `steps`[0] + j * `steps`[1] + ...
 #[derive(Clone, Debug, PartialEq)]
@@ -32,13 +33,16 @@ const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 impl Picked {
     /// The volume's voxels. Picking keeps their type; combined ones are f32, or f64 where single precision does not
     /// hold every value of the type.
-    pub fn of(&self, values: Voxels) -> Voxels {
+    ///
+    /// A combined value is NaN where any of its parts is, or stands for `no_data`.
+    pub fn of(&self, values: Voxels, no_data: &[f64]) -> Voxels {
         let [x, y, z] = self.dims;
         if self.combined.is_none() && self.in_order() && values.len() == x * y * z {
             return values;
         }
         if let Some(combined) = self.combined {
-            let one = |at: usize| combined.value(&values, at);
+            let missing = Missing { voxel_type: values.voxel_type(), no_data };
+            let one = |at: usize| combined.value(&values, at, &missing);
             if let Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) = values {
                 let singles = self.each(|at| one(at) as f32);
                 // The length of a vector may be beyond f32 where its parts are not.
@@ -83,17 +87,18 @@ impl Picked {
 }
 
 impl Combined {
-    #[allow(clippy::unnecessary_cast)]
-    fn value(&self, values: &Voxels, at: usize) -> f64 {
-        let component = |n: usize| (at as isize + n as isize * self.step) as usize;
-        each_type!(values, v => {
-            let value = |n: usize| v[component(n)] as f64;
-            match self.by {
-                Component::Number(n) => value(n),
-                Component::Luminance => (0..3).map(|n| LUMINANCE[n] * value(n)).sum(),
-                // By hypot: squares of what f64 holds may overflow, their root need not.
-                Component::Magnitude => (0..self.count).map(value).fold(0.0, f64::hypot),
-            }
-        })
+    fn value(&self, values: &Voxels, at: usize, missing: &Missing) -> f64 {
+        let part = |n: usize| {
+            let value = values.get((at as isize + n as isize * self.step) as usize);
+            if value.is_finite() && missing.is(value) { f64::NAN } else { value }
+        };
+        match self.by {
+            Component::Number(n) => part(n),
+            Component::Luminance => (0..3).map(|n| LUMINANCE[n] * part(n)).sum(),
+            // By hypot: squares of what f64 holds may overflow, their root need not. It takes an infinite part for more
+            // than NaN.
+            Component::Magnitude if (0..self.count).any(|n| part(n).is_nan()) => f64::NAN,
+            Component::Magnitude => (0..self.count).map(part).fold(0.0, f64::hypot),
+        }
     }
 }

@@ -37,7 +37,8 @@ impl ByteSkip {
 }
 
 /// # Errors
-/// When the file cannot be read or is not exactly as long as `layout` asks for.
+/// When the file cannot be read, is shorter than `layout` asks for, or is longer and nothing is said of where in it the
+/// voxels lie.
 pub fn volume(path: &Path, layout: &RawLayout) -> Result<Volume> {
     let (mut file, length) = super::open(path)?;
     let bad = |problem: String, remedy: &str| Err(Error::input(path.display(), problem, remedy));
@@ -52,7 +53,9 @@ pub fn volume(path: &Path, layout: &RawLayout) -> Result<Volume> {
         ByteSkip::ToTail => (length.saturating_sub(bytes), String::new()),
     };
     let held = length.saturating_sub(skip);
-    if held != bytes {
+    // Whoever says where the voxels begin knows that the file is not theirs alone.
+    let more = held.saturating_sub(bytes);
+    if held < bytes || more > 0 && layout.skip == ByteSkip::Bytes(0) {
         let remedy = if held < bytes {
             "correct dims, type and skip, or complete the file"
         } else {
@@ -63,7 +66,13 @@ pub fn volume(path: &Path, layout: &RawLayout) -> Result<Volume> {
     file.seek(SeekFrom::Start(skip)).map_err(|e| super::unreadable(path, &e))?;
     let mut voxels = voxels::none(layout.voxel_type);
     match voxels::binary(&mut file, &mut voxels, count, layout.big_endian) {
-        Ok(()) => Volume::new(path.display().to_string(), dims, layout.spacing, voxels),
+        Ok(()) => {
+            let mut volume = Volume::new(path.display().to_string(), dims, layout.spacing, voxels)?;
+            let bytes = if more == 1 { "byte" } else { "bytes" };
+            let warning = || format!("{} holds {more} {bytes} behind its voxels, which is not read", path.display());
+            volume.warnings.extend((more > 0).then(warning));
+            Ok(volume)
+        }
         Err(Fault::Read(e)) => Err(super::unreadable(path, &e)),
         Err(Fault::Memory) => {
             bad(format!("needs {bytes} bytes of memory, which are not available"), "use a smaller volume")

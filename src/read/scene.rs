@@ -58,7 +58,7 @@ pub fn settings_from_json(path: &Path) -> Result<Settings> {
     let bad = |problem: String, remedy: String| Err(Error::input(path.display(), problem, remedy));
     let mut root: Value = match serde_json::from_str(&super::text(&path)?) {
         Ok(root) => root,
-        Err(e) => return bad(format!("is no JSON ({e})"), "give the file that `render --json` wrote".into()),
+        Err(e) => return bad(format!("is not JSON ({e})"), "give the file that `render --json` wrote".into()),
     };
     let run = match (root.get_mut("runs").and_then(Value::as_array_mut), index) {
         (None, None) => &mut root,
@@ -223,7 +223,12 @@ fn check_volume(volume: &VolumeSettings) -> Result<()> {
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {
     let raw = raw_layout(settings)?;
-    let choice = Choice { component: settings.component, frame: settings.frame, orientation: settings.orientation };
+    let choice = Choice {
+        component: settings.component,
+        frame: settings.frame,
+        orientation: settings.orientation,
+        no_data: &settings.no_data,
+    };
     match (&settings.path, &settings.builtin) {
         (Some(_), Some(_)) => Err(Error::usage("volume", "has both path and builtin", "keep one of them")),
         (Some(path), None) => super::volume_with(path, raw, &choice),

@@ -39,7 +39,7 @@ fn preset(name: &str, reference: f64) -> Result<TransferFunction> {
         let remedy = format!("{near}choose one of {}, or give a file", PRESETS.join(", "));
         Err(Error::usage(
             "transfer.preset",
-            format!("`{}` is no built-in transfer function", name.escape_debug()),
+            format!("`{}` is not a built-in transfer function", name.escape_debug()),
             remedy,
         ))
     })

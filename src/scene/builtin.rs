@@ -115,7 +115,7 @@ pub fn find(name: &str) -> Result<&'static Builtin> {
         let names = TABLE.iter().map(|b| b.name);
         let near = nearest(name, names.clone()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
         let known = names.collect::<Vec<_>>().join(", ");
-        Error::usage(format!("builtin:{name}"), "is no built-in volume", format!("{near}choose one of {known}"))
+        Error::usage(format!("builtin:{name}"), "is not a built-in volume", format!("{near}choose one of {known}"))
     })
 }
 
@@ -161,9 +161,13 @@ fn sizes(label: &str, text: &str) -> Result<[usize; 3]> {
 fn fill<T: Send>(label: &str, builtin: &Builtin, dims: [usize; 3], store: fn(f64) -> T) -> Result<Vec<T>> {
     let count = dims.iter().product();
     let mut values = Vec::new();
-    values
-        .try_reserve_exact(count)
-        .map_err(|_| Error::usage(label, format!("finds no memory for {count} voxels"), "choose a smaller size"))?;
+    values.try_reserve_exact(count).map_err(|_| {
+        Error::usage(
+            label,
+            format!("has {count} voxels, and there is not enough memory for them"),
+            "choose a smaller size",
+        )
+    })?;
     values.par_extend((0..count).into_par_iter().map(|i| {
         let voxel = [i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1])];
         let p = DVec3::from_array(std::array::from_fn(|a| 2.0 * (voxel[a] as f64 + 0.5) / dims[a] as f64 - 1.0));

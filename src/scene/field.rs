@@ -50,6 +50,7 @@ pub struct Field {
     /// Found when first asked for.
     extremes: OnceLock<[f32; 2]>,
     contrast: OnceLock<f64>,
+    value_extremes: OnceLock<Option<[f64; 2]>>,
 }
 
 impl Field {
@@ -96,6 +97,7 @@ impl Field {
             no_data: how.no_data.to_vec(),
             extremes: OnceLock::new(),
             contrast: OnceLock::new(),
+            value_extremes: OnceLock::new(),
             volume,
         };
         if bad > 0 && how.nan == NanPolicy::Hole {
@@ -121,6 +123,15 @@ impl Field {
             let wider = |[low, high]: [f32; 2], [l, h]: [f32; 2]| [low.min(l), high.max(h)];
             let none = || [f32::INFINITY, f32::NEG_INFINITY];
             self.values.par_iter().map(|&v| [v, v]).reduce(none, wider)
+        })
+    }
+
+    /// The least and the greatest value in the volume's own unit; none where no voxel has one.
+    pub fn value_extremes(&self) -> Option<[f64; 2]> {
+        *self.value_extremes.get_or_init(|| {
+            let voxels = &self.volume.voxels;
+            let missing = Missing { voxel_type: voxels.voxel_type(), no_data: &self.no_data };
+            range::extremes(voxels, |value| !missing.is(value))
         })
     }
 
@@ -198,13 +209,14 @@ impl Field {
 }
 
 /// Which values stand for none.
-struct Missing<'a> {
-    voxel_type: VoxelType,
-    no_data: &'a [f64],
+#[derive(Clone, Copy)]
+pub struct Missing<'a> {
+    pub voxel_type: VoxelType,
+    pub no_data: &'a [f64],
 }
 
 impl Missing<'_> {
-    fn is(&self, value: f64) -> bool {
+    pub fn is(&self, value: f64) -> bool {
         // A number of a header or an option has more digits than an f32 that was read.
         let same = |no: &f64| value == *no || (self.voxel_type == VoxelType::F32 && value as f32 == *no as f32);
         !value.is_finite() || self.no_data.iter().any(same)
@@ -220,7 +232,10 @@ fn scalar_range(volume: &Volume, range: Option<[RangeEnd; 2]>, missing: &Missing
     });
     let found = match ends {
         [RangeEnd::Value(_), RangeEnd::Value(_)] => None,
-        _ => range::percentiles(&volume.voxels, has_value, percents),
+        _ => range::percentiles(&volume.voxels, has_value, percents).map_err(|_| {
+            let problem = format!("has {} voxels, and there is not enough memory to sort them", volume.voxels.len());
+            Error::input(&volume.name, problem, "give the range in values, or use a smaller volume")
+        })?,
     };
     let resolved = [0, 1].map(|i| match (ends[i], found) {
         (RangeEnd::Value(value), _) => value,

@@ -28,3 +28,17 @@ fn exactly<T, E: Error, const N: usize>(entries: Vec<T>) -> Result<[T; N], E> {
     let count = entries.len();
     entries.try_into().map_err(|_| E::custom(format!("{count} entries where there have to be {N}")))
 }
+
+/// A number, or a list of numbers.
+pub fn one_or_more<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "expected a number or a list of numbers")]
+    enum OneOrMore {
+        One(f64),
+        More(Vec<f64>),
+    }
+    Ok(match OneOrMore::deserialize(from)? {
+        OneOrMore::One(number) => vec![number],
+        OneOrMore::More(numbers) => numbers,
+    })
+}

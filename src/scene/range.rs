@@ -1,5 +1,6 @@
 //! The scalar range: the values that x runs over from 0 to 1, given as numbers, as percentiles, or not at all.
 
+use std::collections::TryReserveError;
 use std::fmt;
 
 use rayon::prelude::*;
@@ -105,6 +106,11 @@ pub fn natural(voxels: &Voxels, has_value: impl Fn(f64) -> bool + Sync) -> [f64;
     if voxels.voxel_type() == VoxelType::U8 {
         return [0.0, 255.0];
     }
+    extremes(voxels, has_value).unwrap_or([0.0, 1.0])
+}
+
+/// The least and the greatest value of the voxels that have one; none where none has.
+pub fn extremes(voxels: &Voxels, has_value: impl Fn(f64) -> bool + Sync) -> Option<[f64; 2]> {
     let none = || [f64::INFINITY, f64::NEG_INFINITY];
     let [low, high] = (0..voxels.len())
         .into_par_iter()
@@ -112,18 +118,26 @@ pub fn natural(voxels: &Voxels, has_value: impl Fn(f64) -> bool + Sync) -> [f64;
         .filter(|v| has_value(*v))
         .fold(none, |[low, high], v| [low.min(v), high.max(v)])
         .reduce(none, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    if low <= high { [low, high] } else { [0.0, 1.0] }
+    (low <= high).then_some([low, high])
 }
 
 /// The values that so many per cent of the voxels with a value do not exceed, by nearest rank; none where no voxel has a
-/// value, or there is not enough memory to sort them.
-pub fn percentiles(voxels: &Voxels, has_value: impl Fn(f64) -> bool + Sync, percents: [f64; 2]) -> Option<[f64; 2]> {
+/// value.
+///
+/// # Errors
+/// When there is not enough memory to sort them.
+pub fn percentiles(
+    voxels: &Voxels,
+    has_value: impl Fn(f64) -> bool + Sync,
+    percents: [f64; 2],
+) -> Result<Option<[f64; 2]>, TryReserveError> {
     let mut values: Vec<f64> = Vec::new();
-    values.try_reserve_exact(voxels.len()).ok()?;
+    values.try_reserve_exact(voxels.len())?;
     values.par_extend((0..voxels.len()).into_par_iter().map(|i| voxels.get(i)).filter(|v| has_value(*v)));
-    let last = values.len().checked_sub(1)?;
-    Some(percents.map(|percent| {
-        let rank = (percent / 100.0 * values.len() as f64).ceil() as usize;
+    let Some(last) = values.len().checked_sub(1) else { return Ok(None) };
+    Ok(Some(percents.map(|percent| {
+        // Multiplied first: a whole number of voxels stays one.
+        let rank = (percent * values.len() as f64 / 100.0).ceil() as usize;
         *values.select_nth_unstable_by(rank.saturating_sub(1).min(last), f64::total_cmp).1
-    }))
+    })))
 }

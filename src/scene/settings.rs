@@ -39,7 +39,7 @@ pub struct VolumeSettings {
     pub range: Option<[RangeEnd; 2]>,
     pub nan: NanPolicy,
     /// Values that stand for no value, in the volume's own unit; the policy `nan` says what becomes of them.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "fixed::one_or_more")]
     pub no_data: Vec<f64>,
     /// Sizes, type and spacing of a raw file.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
@@ -105,7 +105,7 @@ pub const PRECISIONS: std::ops::RangeInclusive<f64> = 1e-9..=1.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum VolumeTexture {
-    /// The smallest format that loses nothing of the volume and that the device interpolates as precisely as asked.
+    /// The smallest format that keeps every value and that the device interpolates as precisely as --precision asks.
     #[default]
     Auto,
     /// As stored: R8 or R16 for 8 and 16 bit integers, R32F for everything else.

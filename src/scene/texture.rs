@@ -84,7 +84,9 @@ pub enum Kept {
     Stored,
     /// Codes of 8 bits in 16: c * 257, which stands for the same number.
     Widened,
-    /// 16 bits spread over the values there are.
+    /// Codes in 16 bits, those of the values there are times a whole number that lets them fill the format.
+    Stretched,
+    /// 16 bits spread over the values there are, rounded.
     Spread,
     /// x in f32.
     Float,
@@ -98,6 +100,8 @@ pub struct TextureChoice {
     /// No interpolated x is farther than this from the one interpolated in exact arithmetic; infinite where there is no
     /// such bound.
     pub error: f64,
+    /// Whether the bound is that of a device that was measured, not of one that interpolates every format in f32.
+    pub measured: bool,
 }
 
 impl TextureChoice {
@@ -107,14 +111,15 @@ impl TextureChoice {
         let filter = scene.settings.sampling.filter;
         let choice = |kept: Kept| {
             let format = format_of(field, kept);
-            Self { kept, format, error: error_of(field, kept, format, filter, &scene.unit) }
+            let error = error_of(field, kept, format, filter, &scene.unit);
+            Self { kept, format, error, measured: scene.unit.measured || filter != Filter::Hardware }
         };
         match volume.texture {
             VolumeTexture::Native => choice(native(field)),
             VolumeTexture::R16 => choice(Kept::Spread),
             VolumeTexture::R32f => choice(Kept::Float),
             VolumeTexture::Auto => {
-                let all: Vec<Self> = lossless(field).iter().map(|kept| choice(*kept)).collect();
+                let all: Vec<Self> = lossless(field, filter).iter().map(|kept| choice(*kept)).collect();
                 let least = all.iter().map(|choice| choice.error).fold(f64::INFINITY, f64::min);
                 // Where none is precise enough, the smallest that is not much worse than the best.
                 let enough = volume.precision.max(NOT_MUCH_WORSE * least);
@@ -129,6 +134,7 @@ impl TextureChoice {
         let how = match self.kept {
             Kept::Stored => "as stored",
             Kept::Widened => "8 bits widened",
+            Kept::Stretched => "codes stretched over 16 bits",
             Kept::Spread => "spread over the values",
             Kept::Float => "x itself",
         };
@@ -158,13 +164,37 @@ fn native(field: &Field) -> Kept {
     if coded && (field.missing == 0 || replaceable()) { Kept::Stored } else { Kept::Float }
 }
 
-/// What loses nothing of the volume, the smallest first.
-fn lossless(field: &Field) -> Vec<Kept> {
+/// What loses nothing of the volume, the smallest first. Where nothing is interpolated the codes themselves are exact.
+fn lossless(field: &Field, filter: Filter) -> Vec<Kept> {
     match (native(field), codes(field.volume.voxels.voxel_type())) {
-        (Kept::Stored, Some(TexelFormat::R8)) => vec![Kept::Stored, Kept::Widened, Kept::Spread, Kept::Float],
-        (Kept::Stored, _) => vec![Kept::Stored, Kept::Spread, Kept::Float],
+        (Kept::Stored, _) if filter == Filter::Nearest => vec![Kept::Stored],
+        (Kept::Stored, Some(TexelFormat::R8)) => vec![Kept::Stored, Kept::Widened, Kept::Stretched, Kept::Float],
+        (Kept::Stored, _) => vec![Kept::Stored, Kept::Stretched, Kept::Float],
         _ => vec![Kept::Float],
     }
+}
+
+/// How codes are stretched over 16 bits: a voxel's code is its value less `least`, times `factor`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    pub least: f64,
+    pub factor: u16,
+}
+
+impl Stretch {
+    /// The widest stretch of a volume of whole numbers.
+    pub fn of(field: &Field) -> Self {
+        let [least, most] = values(field);
+        let span = (most - least).clamp(1.0, f64::from(u16::MAX));
+        Self { least, factor: (f64::from(u16::MAX) / span) as u16 }
+    }
+}
+
+/// The least and the greatest value, that of missing voxels among them.
+fn values(field: &Field) -> [f64; 2] {
+    let low = field.range[0];
+    let [least, most] = field.value_extremes().unwrap_or([low; 2]);
+    if field.missing > 0 { [least.min(low), most.max(low)] } else { [least, most] }
 }
 
 /// The format of a type's own codes.
@@ -190,7 +220,7 @@ pub fn code_span(field: &Field) -> Option<[f64; 2]> {
 fn format_of(field: &Field, kept: Kept) -> TexelFormat {
     match kept {
         Kept::Stored => codes(field.volume.voxels.voxel_type()).unwrap_or(TexelFormat::R32f),
-        Kept::Widened | Kept::Spread => TexelFormat::R16,
+        Kept::Widened | Kept::Stretched | Kept::Spread => TexelFormat::R16,
         Kept::Float => TexelFormat::R32f,
     }
 }
@@ -202,13 +232,15 @@ fn error_of(field: &Field, kept: Kept, format: TexelFormat, filter: Filter, unit
         return 0.0;
     }
     let [low, high] = field.extremes().map(f64::from);
-    // How much of x a texel's numbers from 0 to 1 span, and what making them lost of it.
-    let (span, made) = match (kept, code_span(field)) {
+    let width = field.range[1] - field.range[0];
+    // How much of x a texel's numbers from 0 to 1 span, the part of that its largest number takes, and what making it lost.
+    let (span, top, made) = match (kept, code_span(field)) {
         (Kept::Stored | Kept::Widened, Some([least, most])) => {
-            ((most - least) / (field.range[1] - field.range[0]), 0.0)
+            ((most - least) / width, (values(field)[1] - least) / (most - least), 0.0)
         }
-        (Kept::Spread, _) => (high - low, (high - low) * 0.5 / f64::from(u16::MAX)),
-        _ => (low.abs().max(high.abs()), 0.0),
+        (Kept::Stretched, Some(_)) => (f64::from(u16::MAX) / (f64::from(Stretch::of(field).factor) * width), 1.0, 0.0),
+        (Kept::Spread, _) => (high - low, 1.0, (high - low) * 0.5 / f64::from(u16::MAX)),
+        _ => (low.abs().max(high.abs()), 1.0, 0.0),
     };
     let side = field.dims().into_iter().max().unwrap_or(1) as f64;
     let (rounding, weight) = match (filter, unit.errors[format as usize]) {
@@ -217,6 +249,7 @@ fn error_of(field: &Field, kept: Kept, format: TexelFormat, filter: Filter, unit
         (Filter::Hardware, Some(unit)) => (unit.rounding, unit.weight + 3.0 * UNIT_PLACE * side),
         (Filter::Hardware, None) => return f64::INFINITY,
     };
-    let error = made + (rounding + F32_ROUNDING) * span + if weight > 0.0 { weight * field.contrast() } else { 0.0 };
+    let error =
+        made + (rounding + F32_ROUNDING * top) * span + if weight > 0.0 { weight * field.contrast() } else { 0.0 };
     if error.is_nan() { f64::INFINITY } else { error }
 }

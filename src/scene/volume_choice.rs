@@ -62,7 +62,7 @@ impl FromStr for Component {
             Self::LUMINANCE => Ok(Self::Luminance),
             Self::MAGNITUDE => Ok(Self::Magnitude),
             number => {
-                number.parse().map(Self::Number).map_err(|_| format!("`{text}` is no component, {}", Self::EXPECTED))
+                number.parse().map(Self::Number).map_err(|_| format!("`{text}` is not a component, {}", Self::EXPECTED))
             }
         }
     }

@@ -9,19 +9,26 @@ use super::messages::messenger_info;
 use super::version::API_VERSION;
 use crate::error::Error;
 
-/// Environment variables that choose the manifests of drivers.
+/// Environment variables that choose the manifests of drivers. The loader asks the second only without the first.
 const FILES: [&str; 3] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES"];
 
 /// Environment variables that choose among drivers by the names of their manifests.
 const FILTERS: [&str; 2] = ["VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"];
 
-/// Words of the loader that are shown; the first say most.
+/// Lines of the loader that are shown.
 const MOST_WORDS: usize = 4;
+
+/// Lines of the loader that say most: what failed, and which file it is about.
+const TELLING: [&str; 4] = ["Failed", "failed", "error", "/"];
 
 /// An error of the loader or of its drivers, with what chose the drivers and what the loader says of them.
 pub(super) fn diagnosed(entry: &ash::Entry, error: Error) -> Error {
-    let chosen: Vec<String> =
-        FILES.into_iter().filter_map(files).chain(FILTERS.into_iter().filter_map(filter)).collect();
+    let chosen: Vec<String> = FILES
+        .into_iter()
+        .filter(|variable| is_asked(variable))
+        .filter_map(files)
+        .chain(FILTERS.into_iter().filter_map(filter))
+        .collect();
     let words = loader_words(entry);
     if chosen.is_empty() && words.is_empty() {
         return error;
@@ -41,6 +48,11 @@ pub(super) fn diagnosed(entry: &ash::Entry, error: Error) -> Error {
     Error::device("Vulkan driver", problem, remedy)
 }
 
+/// Whether the loader asks the variable.
+fn is_asked(variable: &str) -> bool {
+    variable != FILES[1] || std::env::var_os(FILES[0]).is_none_or(|value| value.is_empty())
+}
+
 /// The variable with the manifests it names, and what is wrong with them at first sight.
 fn files(variable: &str) -> Option<String> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty())?;
@@ -54,10 +66,19 @@ fn filter(variable: &str) -> Option<String> {
     Some(format!("{variable} is {}", value.to_string_lossy()))
 }
 
+/// Manifests are a few hundred bytes long.
+const LONGEST_MANIFEST: u64 = 1 << 20;
+
 /// What a manifest looks like to somebody who reads it.
 fn state(path: &Path) -> String {
-    if path.is_dir() {
-        return "a folder".to_owned();
+    match std::fs::metadata(path) {
+        Err(error) => return format!("cannot be read: {error}"),
+        Ok(meta) if meta.is_dir() => return "a folder".to_owned(),
+        Ok(meta) if !meta.is_file() => return "is not a regular file".to_owned(),
+        Ok(meta) if meta.len() > LONGEST_MANIFEST => {
+            return format!("has {} bytes, too many for a manifest", meta.len());
+        }
+        Ok(_) => {}
     }
     match std::fs::read(path) {
         Err(error) => format!("cannot be read: {error}"),
@@ -89,7 +110,10 @@ fn loader_words(entry: &ash::Entry) -> Vec<String> {
     }
     let mut words = std::mem::take(&mut *words.lock().unwrap_or_else(PoisonError::into_inner));
     words.dedup();
+    words.sort_by_key(|word| std::cmp::Reverse(TELLING.iter().filter(|telling| word.contains(**telling)).count()));
+    let others = words.len().saturating_sub(MOST_WORDS);
     words.truncate(MOST_WORDS);
+    words.extend((others > 0).then(|| format!("and {others} more lines")));
     let plain = |word: String| word.trim_start_matches(LOADER_ID).trim_start_matches(": ").trim().to_owned();
     words.into_iter().map(plain).collect()
 }

@@ -34,7 +34,7 @@ pub(super) struct Reflection {
 
 pub(super) fn reflect(name: &str, words: &[u32]) -> Result<Reflection> {
     let bad = |problem: String| Error::input(format!("shader {name}"), problem, "compile it again from its GLSL");
-    let module = load_words(words).map_err(|error| bad(format!("is no valid SPIR-V ({error})")))?;
+    let module = load_words(words).map_err(|error| bad(format!("is not valid SPIR-V ({error})")))?;
     let names = Names::of(&module);
     let [entry] = module.entry_points.as_slice() else {
         return Err(bad(format!("has {} entry points, 1 is needed", module.entry_points.len())));

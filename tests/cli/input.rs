@@ -28,7 +28,7 @@ fn rejects_an_nrrd_truncated_anywhere() {
         (0, "begins with"),
         (4, "begins with"),
         (after("NRRD0004\n"), "type: is missing"),
-        (after("dimen"), "is no line of an NRRD header"),
+        (after("dimen"), "is not a line of an NRRD header"),
         (after("dimension: 3\n"), "encoding: is missing"),
         (after("sizes: 2 3"), "encoding: is missing"),
         (HEADER.len() - 1, "not ended by an empty line"),

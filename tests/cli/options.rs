@@ -35,9 +35,9 @@ fn rejects_numbers_out_of_their_range() {
         ("--reference 0", ["--reference", "from 0.000001 to 1000000"]),
         ("--reference 1e-308", ["--reference", "from 0.000001 to 1000000"]),
         ("--range 5,1", ["--range", "[5, 1]"]),
-        ("--range 5", ["--range", "2 ends are needed, 1 are given"]),
+        ("--range 5", ["--range", "2 ends are needed, and the number given is 1"]),
         ("--background 2,0,0", ["--background", "from 0 to 1"]),
-        ("--eye 1,2", ["--eye", "3 numbers are needed, 2 are given"]),
+        ("--eye 1,2", ["--eye", "3 numbers are needed, and the number given is 2"]),
         ("--eye 1,2,nan", ["--eye", "`nan`"]),
         ("--eye 0,0,0", ["camera", "eye and target"]),
         ("--eye 0,1,0", ["camera", "--up"]),
@@ -110,7 +110,7 @@ fn a_wrong_file_to_repeat_from_is_refused() {
     place.refused("render --from a.json -o a.png", 3, &["a.json", "2 runs", "a.json#1"]);
     place.refused("render --from a.json#2 -o a.png", 3, &["none numbered 2"]);
     place.refused("render --from a.json#1 -o a.png", 3, &["`setp`", "did you mean `step`?"]);
-    place.refused("render --from b.json -o a.png", 3, &["b.json", "no JSON"]);
+    place.refused("render --from b.json -o a.png", 3, &["b.json", "not JSON"]);
     place.refused("render --from c.json -o a.png", 3, &["c.json", "cannot be read"]);
     place.refused("render builtin:shells --from a.json -o a.png", 2, &["--from"]);
 }

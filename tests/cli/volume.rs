@@ -63,7 +63,8 @@ fn pictures_that_may_mislead_come_with_a_warning() {
     for (arguments, part) in [
         ("a.nrrd --range 300,400", "values run from 0 to 250"),
         ("a.nrrd --range 100,100", "the one value 100"),
-        ("constant.nrrd --no-data 100", "all 12 voxels are"),
+        ("constant.nrrd --range 300,400", "every value is 100"),
+        ("constant.nrrd --no-data 100", "every voxel is NaN"),
         ("a.nrrd --nan hole --no-data 27,81", "every cell has one"),
         ("a.nrrd --eye 0,0,3 --target 0,0,9", "no ray meets the volume"),
         ("long.nrrd", "long.nrrd holds 3 bytes behind its data"),
@@ -93,11 +94,13 @@ fn options_of_files_are_refused_with_what_there_is() {
         ("colours.nrrd --component red", 2, ["--component", "red", "luminance"]),
         ("movie.nrrd", 3, ["movie.nrrd", "--frame", "0 to 2"]),
         ("movie.nrrd --frame 3", 3, ["--frame", "is 3", "0 to 2"]),
-        ("a.raw --dims 3,2,2 --type u8 --component 0", 3, ["a.raw", "--component", "one value"]),
+        ("a.raw --dims 3,2,2 --type u8 --component 1", 3, ["a.raw", "--component", "one value"]),
         ("a.raw --dims 3,2,2 --type u8 --skip -2", 2, ["--skip", "-2", "-1"]),
         ("a.raw --dims 3,2,2 --type u8 --skip 1", 3, ["a.raw", "11", "12"]),
         ("a.raw --endian big", 2, ["endian", "dims", "add"]),
-        ("builtin:shells:8 --frame 0", 3, ["--frame", "shells:8", "leave it out"]),
+        ("builtin:shells:8 --frame 1", 3, ["--frame", "shells:8", "leave it out"]),
+        ("colours.nrrd --component -1", 2, ["--component", "-1", "luminance"]),
+        ("movie.nrrd --frame -1", 2, ["--frame", "-1", "invalid"]),
         ("builtin:shells:8 --range 60%,40%", 2, ["--range", "60%", "low"]),
         ("builtin:shells:8 --range 0%,101%", 2, ["--range", "101", "100"]),
         ("builtin:shells:8 --precision 0", 2, ["--precision", "0", "from"]),
@@ -125,7 +128,7 @@ fn every_setting_of_a_volume_is_repeated_from_json() {
     );
     place.file("a.raw", [VOXELS.as_slice(), &VOXELS].concat());
     for arguments in [
-        "movie.nrrd --component magnitude --frame 1 --orientation index --range 5%,1e2 --no-data -9999,81 --nan hole",
+        "movie.nrrd --component magnitude --frame 1 --orientation index --range 5%,1e2 --no-data -9999,253 --nan hole",
         "a.raw --dims 3,2,1 --type i16 --endian big --skip -1 --spacing 1,0.3,2 --filter nearest --precision 1e-4",
     ] {
         place.done(&format!("render {arguments} {LOOK} --tf linear -o first.npy --json first.json"));
@@ -155,7 +158,7 @@ fn messages_escape_what_a_file_holds_and_are_cut() {
 #[test]
 fn a_broken_manifest_is_named_with_its_variable_and_the_loaders_words() {
     let place = Place::new();
-    place.file("broken.json", "this is no JSON");
+    place.file("broken.json", "this is not JSON");
     place.file(
         "library.json",
         r#"{"file_format_version": "1.0.0", "ICD": {"library_path": "/nonexistent/lib.so", "api_version": "1.3.0"}}"#,

@@ -90,7 +90,8 @@ fn record() -> Probe {
 fn records_are_read_as_written() {
     let json = serde_json::to_string(&record()).unwrap();
     assert_eq!(record::read(&json, "a.json").unwrap(), record());
-    for (text, part) in [("{", "no result of a probe"), ("{\"version\": 77}", "77"), ("{\"version\": 1}", "no result")]
+    for (text, part) in
+        [("{", "not a result of a probe"), ("{\"version\": 77}", "77"), ("{\"version\": 1}", "not a result")]
     {
         let error = record::read(text, "a.json").unwrap_err().to_string();
         assert!(error.contains("a.json") && error.contains(part), "{error}");

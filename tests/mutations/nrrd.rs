@@ -43,7 +43,7 @@ fn packed(encoding: &str) -> Vec<u8> {
 }
 
 /// A file and what has to be chosen of it.
-type Form = (Vec<u8>, Choice);
+type Form = (Vec<u8>, Choice<'static>);
 
 /// Every form of an attached file; each holds 24 bytes. bzip2 is rare: its blocks take a megabyte to begin with.
 fn attached() -> Vec<Form> {
@@ -72,7 +72,7 @@ fn is_right(file: &[u8], choice: &Choice) -> bool {
 }
 
 /// Mostly what is right for the file.
-fn chosen(right: &Choice, numbers: &mut Numbers) -> Choice {
+fn chosen(right: &Choice<'static>, numbers: &mut Numbers) -> Choice<'static> {
     let mut choice = *right;
     match numbers.below(16) {
         0 => choice.component = Some(Component::Luminance),

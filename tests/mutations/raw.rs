@@ -48,7 +48,8 @@ fn fits(layout: &RawLayout, length: u128) -> bool {
     let size = layout.voxel_type.bytes() as u128;
     let bytes = layout.dims.iter().try_fold(size, |n, side| n.checked_mul(*side as u128));
     let held = match layout.skip {
-        ByteSkip::Bytes(skip) => bytes.and_then(|bytes| bytes.checked_add(u128::from(skip))) == Some(length),
+        ByteSkip::Bytes(0) => bytes == Some(length),
+        ByteSkip::Bytes(skip) => bytes.is_some_and(|bytes| bytes.saturating_add(u128::from(skip)) <= length),
         ByteSkip::ToTail => bytes.is_some_and(|bytes| bytes <= length),
     };
     let sides = layout.spacing.iter().all(|s| s.is_finite() && *s > 0.0 && *s < 1e29);

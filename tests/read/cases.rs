@@ -93,7 +93,7 @@ const RIGHT: [(&str, Right); 47] = [
     ("19-spacing-signs/negative.nrrd", Is(BOX, FLAT, Plain, Some("negative spacing"))),
     ("19-spacing-signs/plain.nrrd", Is(BOX, FLAT, Plain, None)),
     ("20-trailing-bytes/members.nrrd", Is(BOX, ONE, Plain, None)),
-    ("20-trailing-bytes/newline.nrrd", Is(BOX, ONE, Plain, Some("1 bytes behind its data"))),
+    ("20-trailing-bytes/newline.nrrd", Is(BOX, ONE, Plain, Some("1 byte behind its data"))),
     ("20-trailing-bytes/plain.nrrd", Is(BOX, ONE, Plain, None)),
     ("20-trailing-bytes/short.nrrd", Refused(&["holds 119 bytes", "ask for 120"])),
     ("20-trailing-bytes/zeros.nrrd", Is(BOX, ONE, Plain, Some("512 bytes behind its gzip stream"))),

@@ -113,19 +113,33 @@ fn a_length_beyond_f32_stays_finite() {
     assert!((volume.voxels.get(0) / expected - 1.0).abs() < 1e-7, "{:?}", volume.voxels);
 }
 
+/// A value made of parts has none where a part is no data, NaN or, beside NaN, infinite.
+#[test]
+fn a_combined_value_without_one_of_its_parts_is_none() {
+    let floats = [3.0, 4.0, -9999.0, 1.0, f32::NAN, f32::INFINITY, 6.0, 8.0].map(f32::to_le_bytes).concat();
+    let lines = sized(&[2, 4, 1, 1], "kinds: vector domain domain domain\nendian: little").replace("uchar", "float");
+    let choice = Choice { no_data: &[-9999.0], ..component(Magnitude) };
+    let read = values(&read_with("a.nrrd", &nrrd(&lines, &floats), &choice).unwrap());
+    assert_eq!((read[0], read[3]), (5.0, 10.0));
+    assert!(read[1].is_nan() && read[2].is_nan(), "{read:?}");
+}
+
 #[test]
 fn choices_that_do_not_fit_are_refused_by_name() {
     for (by, sizes, lines, parts) in [
         (Number(3), FRONT, IN_FRONT[0], ["is 3", "each voxel has 3 values"]),
         (Number(usize::MAX), FRONT, IN_FRONT[0], ["is 18446744073709551615", "0 to 2"]),
-        (Luminance, [2, 3, 4, 5], IN_FRONT[1], ["is luminance", "each voxel has 2 values; choose 0 to 1, magnitude"]),
-        (Number(0), [1, 3, 4, 5], IN_FRONT[1], ["is 0, and each voxel has one value", "leave it out"]),
+        (Luminance, [2, 3, 4, 5], IN_FRONT[1], ["is luminance", "2 values of kind vector, which are not red"]),
+        (Luminance, [3, 3, 4, 5], "kinds: HSV-color domain domain domain", ["is luminance", "of kind hsv-color"]),
+        (Number(1), [1, 3, 4, 5], IN_FRONT[1], ["is 1, and each voxel has one value", "leave it out"]),
         (Magnitude, [3, 4, 5, 1], "", ["is magnitude, and each voxel has one value", "leave it out"]),
     ] {
         let message = chosen(&sizes, lines, &component(by)).unwrap_err().to_string();
         let named = "a.nrrd: volume.component (--component): ";
         assert!(message.contains(named) && parts.iter().all(|part| message.contains(part)), "{message}");
     }
+    let only = chosen(&[1, 3, 4, 5], IN_FRONT[1], &component(Number(0))).unwrap();
+    assert_eq!(bytes(&only), (0..60).collect::<Vec<u8>>());
     let twice = chosen(&[2, 2, 3, 4, 5], "kinds: vector RGB-color domain domain domain", &Choice::default());
     assert!(twice.unwrap_err().to_string().contains("axes [0, 1] all number the values of a voxel"));
 }

@@ -82,15 +82,15 @@ pub fn volume(sizes: &[usize], lines: &str) -> Volume {
     chosen(sizes, lines, &Choice::default()).unwrap_or_else(|e| panic!("{lines}: {e}"))
 }
 
-pub fn component(component: Component) -> Choice {
+pub fn component(component: Component) -> Choice<'static> {
     Choice { component: Some(component), ..Choice::default() }
 }
 
-pub fn frame(frame: usize) -> Choice {
+pub fn frame(frame: usize) -> Choice<'static> {
     Choice { frame: Some(frame), ..Choice::default() }
 }
 
-pub fn by_index() -> Choice {
+pub fn by_index() -> Choice<'static> {
     Choice { orientation: Orientation::Index, ..Choice::default() }
 }
 

@@ -43,9 +43,15 @@ fn bytes_in_front_are_skipped_as_many_as_are_said_or_left_over() {
             assert!(message.contains(&format!("holds {left} bytes behind the {wrong}")), "{message}");
             assert!(message.contains("ask for 4"), "{message}");
         }
+        // Without a word about where they lie, voxels are all there is; with one they need not be.
         if front > 0 {
-            let message = read(ByteSkip::Bytes(front - 1)).unwrap_err().to_string();
-            assert!(message.contains("holds 5 bytes") && message.contains("--skip BYTES"), "{message}");
+            let message = read(ByteSkip::Bytes(0)).unwrap_err().to_string();
+            assert!(message.contains(&format!("holds {} bytes", front + 4)), "{message}");
+            assert!(message.contains("--skip BYTES"), "{message}");
+        }
+        if front > 1 {
+            let warnings = read(ByteSkip::Bytes(front - 1)).unwrap().warnings;
+            assert!(warnings[0].contains("1 byte behind its voxels"), "{warnings:?}");
         }
     }
     let (_folder, path) = file("a.raw", &[1; 3]);
@@ -59,7 +65,7 @@ fn a_layout_for_a_file_that_says_its_own_is_refused() {
     for bytes in [whole.clone(), gzip(&whole)] {
         let (_folder, path) = file("a.raw", &bytes);
         let message = read::volume(&path, Some(layout([2, 1, 2], VoxelType::U8))).unwrap_err().to_string();
-        assert!(message.contains("is a NRRD file") && message.contains("leave out dims"), "{message}");
+        assert!(message.contains("is an NRRD file") && message.contains("leave out dims"), "{message}");
     }
 }
 
@@ -77,15 +83,18 @@ fn voxels_that_look_packed_are_read_as_they_stand() {
 fn components_and_frames_of_raw_voxels_are_refused_by_name() {
     let (_folder, path) = file("a.raw", &[1, 2, 3, 4]);
     for (choice, said) in [
-        (component(Component::Number(0)), "volume.component (--component): is 0"),
+        (component(Component::Number(1)), "volume.component (--component): is 1"),
         (component(Component::Luminance), "volume.component (--component): is luminance"),
         (component(Component::Magnitude), "volume.component (--component): is magnitude"),
-        (frame(0), "volume.frame (--frame): is 0"),
+        (frame(1), "volume.frame (--frame): is 1"),
         (Choice { component: Some(Component::Number(7)), ..frame(0) }, "volume.component (--component): is 7"),
     ] {
         let read = read::volume_with(&path, Some(layout([2, 1, 2], VoxelType::U8)), &choice);
         let message = read.unwrap_err().to_string();
         let parts = ["a.raw", said, "raw voxels are one volume", "leave it out"];
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+    for choice in [component(Component::Number(0)), frame(0)] {
+        read::volume_with(&path, Some(layout([2, 1, 2], VoxelType::U8)), &choice).unwrap();
     }
 }

@@ -25,7 +25,7 @@ fn huge_sizes_are_refused_before_anything_is_allocated() {
                 _ => gzip(&[0; 64]),
             };
             let message = refusal(&nrrd(&lines, &data));
-            assert!(["overflow", "ask for", "no number"].iter().any(|m| message.contains(m)), "{message}");
+            assert!(["overflow", "ask for", "not a number"].iter().any(|m| message.contains(m)), "{message}");
         }
     }
 }
@@ -43,7 +43,7 @@ fn lying_headers_are_refused_by_name() {
         ("dimension: 3", "dimension: 17", "dimension: is 17"),
         ("dimension: 3", "dimension: 3.5", "dimension: has `3.5`"),
         ("dimension: 3", "content: none", "dimension: is missing"),
-        ("dimension: 3\nsizes: 2 1 2", "dimension: 1\nsizes: 4", "leaves 1 of 1 axes that lie in space"),
+        ("dimension: 3\nsizes: 2 1 2", "dimension: 1\nsizes: 4", "1 axes, of which 1 may lie in space"),
         ("uchar", "char", "`char`"),
         ("uchar", "block", "`block`"),
         ("type: uchar", "content: none", "type: is missing"),
@@ -53,7 +53,7 @@ fn lying_headers_are_refused_by_name() {
         ("raw", "gzi", "`gzi`, which is unknown; convert it to one of raw, gzip, bzip2, ascii, hex"),
         ("raw", "raw\nspacing: 1 1 1", "did you mean `spacings`"),
         ("raw", "raw\ntype: uchar", "given twice"),
-        ("raw", "raw\nwhat is this", "no line of an NRRD header"),
+        ("raw", "raw\nwhat is this", "not a line of an NRRD header"),
         ("raw", "raw\ndata file: absent.raw", "absent.raw"),
         ("raw", "raw\ndata file: .", "not a regular file"),
         ("raw", "raw\ndata file: ", "data file: is empty"),

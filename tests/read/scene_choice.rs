@@ -71,7 +71,7 @@ fn component_frame_and_orientation_are_keys() {
     }
     for (keys, part) in [
         ("component = -1", "`-1`, expected a number from 0, luminance or magnitude"),
-        ("component = \"red\"", "`red` is no component, expected a number from 0, luminance or magnitude"),
+        ("component = \"red\"", "`red` is not a component, expected a number from 0, luminance or magnitude"),
         ("component = 0.5", "a number from 0, luminance or magnitude"),
         ("frame = -1", "expected a whole number"),
         ("orientation = \"patient\"", "unknown name `patient`"),
@@ -84,7 +84,7 @@ fn component_frame_and_orientation_are_keys() {
 #[test]
 fn components_and_frames_of_built_in_voxels_are_refused_by_name() {
     for (keys, part) in [
-        ("component = 0", "builtin:jets:8: volume.component (--component): is 0"),
+        ("component = 1", "builtin:jets:8: volume.component (--component): is 1"),
         ("component = \"luminance\"", "volume.component (--component): is luminance"),
         ("frame = 3", "volume.frame (--frame): is 3"),
     ] {

@@ -36,7 +36,7 @@ fn numbers_that_are_none_or_infinite_are_read() {
 fn text_that_is_no_number_of_the_type_is_named() {
     for (text, word, at) in [("1 2 256 4", "`256`", 2), ("-1 2 3 4", "`-1`", 0), ("1 2 3 1.5", "`1.5`", 3)] {
         let message = refusal(&nrrd(&ascii(), text.as_bytes()));
-        assert!(message.contains(&format!("{word} for number {at}, which is no u8")), "{message}");
+        assert!(message.contains(&format!("{word} for number {at}, which is not a number of type u8")), "{message}");
     }
     let long = [b"1 2 3 ".to_vec(), vec![b'9'; 5000]].concat();
     assert!(refusal(&nrrd(&ascii(), &long)).len() < 500);
@@ -64,7 +64,7 @@ fn what_is_no_hexadecimal_digit_is_named_with_its_place() {
         ("\x07", "`\\x07`"),
     ] {
         let message = refusal(&nrrd(&hex, text.as_bytes()));
-        assert!(message.contains(named) && message.contains("no hexadecimal digit"), "{message}");
+        assert!(message.contains(named) && message.contains("not a hexadecimal digit"), "{message}");
     }
 }
 

@@ -100,7 +100,7 @@ const SMALL: DataSet = DataSet { side: 64, step: 0.016, intermediate_passes: 13,
 pub const DATA_SETS: [DataSet; 7] = [
     DataSet {
         name: "MRI-Head",
-        remark: Some("the volren.org scan of that name is not to be had; mri_head.nrrd is another head"),
+        remark: Some("the volren.org scan of that name is not available; mri_head.nrrd is another head"),
         rows: &[
             row(Row::Block, 869_293, 9_891_936),
             row(Row::Optimal, 181_139, 534_272),
@@ -111,7 +111,7 @@ pub const DATA_SETS: [DataSet; 7] = [
     },
     DataSet {
         name: "Foot",
-        remark: Some("the Philips scan is not to be had; foot_cadaver.nrrd is another foot"),
+        remark: Some("the Philips scan is not available; foot_cadaver.nrrd is another foot"),
         rows: &[
             row(Row::Block, 538_173, 9_891_936),
             row(Row::Optimal, 159_380, 427_510),

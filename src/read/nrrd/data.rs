@@ -19,7 +19,7 @@ pub struct Data<'a> {
     pub source: &'a mut Source,
     /// Voxels the file holds.
     pub count: usize,
-    /// And bytes of them, unpacked.
+    /// Bytes of these voxels, unpacked.
     pub bytes: u64,
 }
 
@@ -58,7 +58,7 @@ impl Data<'_> {
         }
         voxels::binary(self.source, voxels, self.count, self.header.big_endian).or_else(|fault| self.fault(fault))?;
         let behind = self.source.rest().or_else(|e| self.fault(Fault::Read(e)))?;
-        Ok(counted(behind, "bytes behind its data"))
+        Ok(counted(behind, "behind its data"))
     }
 
     /// `line skip` counts lines of the file, `byte skip` bytes of what it unpacks to.
@@ -85,10 +85,8 @@ impl Data<'_> {
             _ => members.behind(left, MOST_COUNTED).map(|behind| (unpacked, behind)).map_err(Fault::Read),
         });
         let (unpacked, behind) = unpacked.or_else(|fault| self.fault(fault))?;
-        let parts = [
-            counted(unpacked, "bytes behind its data, unpacked"),
-            counted(behind, &format!("bytes behind its {name} stream")),
-        ];
+        let parts =
+            [counted(unpacked, "behind its data, unpacked"), counted(behind, &format!("behind its {name} stream"))];
         let parts: Vec<_> = parts.into_iter().flatten().collect();
         Ok((!parts.is_empty()).then(|| parts.join(" and ")))
     }
@@ -101,14 +99,17 @@ impl Data<'_> {
         let read = self.source.by_ref().take(most).read_to_end(&mut text);
         read.map_err(|e| crate::read::unreadable(self.path, &e))?;
         match voxels::text(&String::from_utf8_lossy(&text), voxels, self.count) {
-            Ok(more) => Ok((more > 0).then(|| format!("{more} numbers behind its data"))),
+            Ok(more) => Ok((more > 0).then(|| format!("{more} more numbers than its data has"))),
             Err(TextFault::Memory) => self.fault(Fault::Memory),
             Err(TextFault::Count(found)) => self.bad(
                 format!("holds {found} numbers where {} ask for {}", self.promise(), self.count),
                 "correct the header or complete the data",
             ),
             Err(TextFault::Number(i, word)) => self.bad(
-                format!("has `{word}` for number {i}, which is no {}", raw::type_name(self.header.voxel_type)),
+                format!(
+                    "has `{word}` for number {i}, which is not a number of type {}",
+                    raw::type_name(self.header.voxel_type)
+                ),
                 "correct it or the type",
             ),
         }
@@ -120,7 +121,7 @@ impl Data<'_> {
         let read = voxels::binary(&mut digits, voxels, self.count, self.header.big_endian);
         let read = read.and_then(|()| digits.rest().map_err(Fault::Read));
         let behind = read.or_else(|fault| self.fault(fault))?;
-        Ok(counted(behind, "bytes behind its data"))
+        Ok(counted(behind, "behind its data"))
     }
 
     fn skip_lines(&mut self) -> Result<()> {
@@ -178,7 +179,8 @@ impl Data<'_> {
 
 fn counted(bytes: u64, what: &str) -> Option<String> {
     let more = if bytes == MOST_COUNTED { "at least " } else { "" };
-    (bytes > 0).then(|| format!("{more}{bytes} {what}"))
+    let bytes = if bytes == 1 { "1 byte".to_owned() } else { format!("{more}{bytes} bytes") };
+    (bytes != "0 bytes").then(|| format!("{bytes} {what}"))
 }
 
 /// The bytes that pairs of hexadecimal digits stand for; white space may stand anywhere.
@@ -198,7 +200,7 @@ impl Hex<'_> {
             }
             self.at += 1;
             let Some(digit) = char::from(byte).to_digit(16) else {
-                let what = format!("`{}`, number {}, is no hexadecimal digit", byte.escape_ascii(), self.at - 1);
+                let what = format!("`{}`, number {}, is not a hexadecimal digit", byte.escape_ascii(), self.at - 1);
                 return Err(io::Error::new(ErrorKind::InvalidData, what));
             };
             return Ok(Some(digit as u8));

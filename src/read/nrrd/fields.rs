@@ -45,6 +45,24 @@ const FIELDS: [&str; 30] = [
     "units",
 ];
 
+/// Fields that say something of the data and where they lie.
+const READ: [&str; 14] = [
+    "axis maxs",
+    "axis mins",
+    "byte skip",
+    "centers",
+    "dimension",
+    "encoding",
+    "endian",
+    "kinds",
+    "line skip",
+    "sizes",
+    "space",
+    "space directions",
+    "spacings",
+    "type",
+];
+
 const SPELLINGS: [(&str, &str); 10] = [
     ("axismaxs", "axis maxs"),
     ("axismins", "axis mins"),
@@ -124,7 +142,9 @@ impl<'a> Fields<'a> {
                 self.unknown(line, field.map(|(field, _)| field))
             };
         };
-        if self.values.insert(known, String::from_utf8_lossy(value).into_owned()).is_some() {
+        // What is not asked for may be long.
+        let kept = if READ.contains(&known) { String::from_utf8_lossy(value).into_owned() } else { String::new() };
+        if self.values.insert(known, kept).is_some() {
             return self.bad(known, "is given twice", "remove one of them");
         }
         Ok((known == DATA_FILE).then_some(value))
@@ -133,12 +153,12 @@ impl<'a> Fields<'a> {
     fn unknown<T>(&self, line: &[u8], field: Option<&[u8]>) -> Result<T> {
         let Some(field) = field else {
             let remedy = "write `field: value`, `key:=value` or `# comment`";
-            return self.bad(&shown(line), "is no line of an NRRD header", remedy);
+            return self.bad(&shown(line), "is not a line of an NRRD header", remedy);
         };
         let field = shown(field);
         let near = nearest(&lower(field.as_bytes()), FIELDS);
         let remedy = near.map_or("remove it".to_string(), |n| format!("did you mean `{n}`?"));
-        self.bad(&field, "is no field of NRRD", &remedy)
+        self.bad(&field, "is not a field of NRRD", &remedy)
     }
 
     pub fn get(&self, field: &str) -> Option<&str> {
@@ -155,7 +175,7 @@ impl<'a> Fields<'a> {
     pub fn number<T: std::str::FromStr>(&self, field: &str, text: &str) -> Result<T> {
         text.parse().or_else(|_| {
             let text = shown(text.as_bytes());
-            self.bad(field, &format!("has `{text}`, which is no number it can have"), "correct it")
+            self.bad(field, &format!("has `{text}`, which is not a number it can have"), "correct it")
         })
     }
 

@@ -65,6 +65,8 @@ const LONGEST_MAGIC: u64 = 32;
 const LONGEST_LINE: u64 = 1 << 26;
 /// A name takes many times the memory of its line.
 const MOST_FILES: usize = 1 << 20;
+/// Names of a LIST are no longer, all together.
+const LONGEST_LIST: usize = 64 << 20;
 
 const TYPES: [(VoxelType, &[&str]); 10] = [
     (VoxelType::I8, &["signed char", "int8", "int8_t"]),
@@ -97,7 +99,7 @@ pub fn read(path: &Path, stream: &mut impl BufRead, most: u64) -> Result<Header>
     }
     let mut fields = Fields::new(path);
     let mut names = Names::Attached;
-    let mut ended = false;
+    let (mut ended, mut listed) = (false, 0);
     while let Some(line) = lines.next(LONGEST_LINE)? {
         if line.len() as u64 > LONGEST_LINE {
             let problem = format!("has a line of more than {LONGEST_LINE} bytes");
@@ -108,8 +110,10 @@ pub fn read(path: &Path, stream: &mut impl BufRead, most: u64) -> Result<Header>
             break;
         }
         if let Names::Several(Several::List(list), _) = &mut names {
-            if list.len() == MOST_FILES {
-                return fields.bad("data file", &format!("lists more than {MOST_FILES} files"), "join some of them");
+            listed += line.len();
+            if list.len() == MOST_FILES || listed > LONGEST_LIST {
+                let problem = format!("lists more than {MOST_FILES} files or {LONGEST_LIST} bytes");
+                return fields.bad("data file", &problem, "join some of the files");
             }
             let name = file_name::name(line.trim_ascii().to_vec());
             list.push(PathBuf::from(name.or_else(|e| fields.bad("data file", &e, "rename the file"))?));

@@ -84,7 +84,7 @@ impl Names {
             return Ok(Self::Several(Several::Pattern(pattern), subdim));
         }
         let name = file_name::name(value.to_vec());
-        name.map(|name| Self::One(name.into())).map_err(|_| ("is no name on this system", "rename the file"))
+        name.map(|name| Self::One(name.into())).map_err(|_| ("is not a name on this system", "rename the file"))
     }
 }
 

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::read::Choice;
 use crate::read::orient::{self, Lie};
 use crate::read::pick::{Combined, Picked};
-use crate::scene::settings::{Component, Orientation};
+use crate::scene::settings::Component;
 
 /// Where the voxels of a volume are found in the file, and where they lie in volume space.
 pub struct Place {
@@ -24,7 +24,7 @@ pub struct Place {
 
 /// Two fields that give the same spacing may differ by this part of it: files are written with as few as four digits.
 const ROUNDING: f64 = 1e-3;
-/// And ends of an axis by this part of themselves.
+/// Two ends of an axis may differ from what they stand for by this part of themselves.
 const ROUNDING_OF_ENDS: f64 = 1e-6;
 
 /// Spaces whose axes are left-handed, lower case; volume space is right-handed.
@@ -69,15 +69,16 @@ pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Re
     match third {
         Third::Axis(_) => {}
         Third::Slices(axis) => notes.push(format!(
-            "the file holds {} pictures (axis {axis} is no space), which are read as the slices of one volume, {} apart; \
+            "the file holds {} pictures (axis {axis} is not in space), which are read as the slices of one volume, {} apart; \
              --frame picks one",
             axes[axis].size, spacing[2]
         )),
         Third::Thickness => notes.push("the file holds a picture, which is read as a volume one voxel thick".into()),
     }
+    let left_handed = header.space.as_deref().filter(|space| LEFT_HANDED.contains(space));
     let lie = match directions(axes, plane, third) {
-        Some(directions) => orient::lie(directions, choice.orientation),
-        None => Lie::OWN,
+        Some(directions) => orient::lie(directions, left_handed.is_some(), choice.orientation),
+        None => Lie { mirrored: left_handed.is_some(), ..Lie::OWN },
     };
     let unknown = |axis: &usize| axes[*axis].direction == Direction::Unknown;
     if let Some(axis) = plane.into_iter().chain(third.axis()).find(unknown) {
@@ -85,12 +86,15 @@ pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Re
             "`space directions` do not say how axis {axis} lies (nan): the volume is drawn along its own axes"
         ));
     }
-    let left_handed = header.space.as_deref().filter(|space| LEFT_HANDED.contains(space));
-    if let Some(space) = left_handed.filter(|_| choice.orientation == Orientation::File) {
-        warnings.push(format!("`space` is {space}, which is left-handed: the picture shows the volume mirrored"));
-    }
     notes.extend(lie.note.clone());
     warnings.extend(lie.warning.clone());
+    if lie.mirrored {
+        let why = match left_handed {
+            Some(space) => format!("`space` is {space}"),
+            None => "the axes it is drawn along are left-handed in `space directions`".to_owned(),
+        };
+        warnings.push(format!("the picture shows the volume mirrored: {why}, and pictures are right-handed"));
+    }
     let picked = picked(axes, roles, choice, [Some(plane[0]), Some(plane[1]), third.axis()], &lie);
     Ok(Place { picked, spacing: lie.axes.map(|(axis, _)| spacing[axis]), turn: lie.turn, notes, warnings })
 }
@@ -115,6 +119,8 @@ fn directions(axes: &[Axis], plane: [usize; 2], third: Third) -> Option<[DVec3; 
     let square = || (x / x.abs().max_element()).cross(y / y.abs().max_element());
     let z = match third {
         Third::Axis(axis) => known(axis)?,
+        // Seconds are no direction.
+        Third::Slices(axis) if axes[axis].kind.as_deref() == Some("time") => square(),
         Third::Slices(axis) => known(axis).unwrap_or_else(square),
         Third::Thickness => square(),
     };

@@ -78,7 +78,7 @@ pub fn of(path: &Path, axes: &[Axis], choice: &Choice) -> Result<Roles> {
         }
     };
     if space.len() < PICTURE_AXES {
-        let problem = format!("leaves {} of {} axes that lie in space", space.len(), axes.len());
+        let problem = format!("has {} axes, of which {} may lie in space", axes.len(), space.len());
         let remedy = "give a file with three such axes (a volume) or two (a picture)";
         return Err(Error::input(format!("{}: dimension", path.display()), problem, remedy));
     }
@@ -110,7 +110,8 @@ impl Roles {
     /// When a choice is missing, does not apply to the file, or lies outside what it holds.
     pub fn check(&self, path: &Path, axes: &[Axis], choice: &Choice) -> Result<()> {
         let size = |axis: Option<usize>| axis.map_or(1, |a| axes[a].size);
-        self.check_component(path, size(self.component), choice)?;
+        let kind = self.component.and_then(|a| axes[a].kind.as_deref());
+        self.check_component(path, size(self.component), kind, choice)?;
         let bad = |problem: String, remedy: String| {
             Err(Error::input(format!("{}: volume.frame (--frame)", path.display()), problem, remedy))
         };
@@ -119,27 +120,33 @@ impl Roles {
             None if count > 1 && self.space.len() == AXES => {
                 bad(format!("is needed: the file holds {count} volumes"), format!("choose one from 0 to {}", count - 1))
             }
-            Some(n) if self.frame.is_none() => {
+            Some(n) if self.frame.is_none() && n > 0 => {
                 bad(format!("is {n}, and the file holds one volume"), "leave it out".into())
             }
-            Some(n) if n >= count => {
+            Some(n) if self.frame.is_some() && n >= count => {
                 bad(format!("is {n}, and the file holds {count}"), format!("choose one from 0 to {}", count - 1))
             }
             _ => Ok(()),
         }
     }
 
-    fn check_component(&self, path: &Path, count: usize, choice: &Choice) -> Result<()> {
-        let words = if count < COLOURS { "magnitude" } else { "luminance or magnitude" };
+    fn check_component(&self, path: &Path, count: usize, kind: Option<&str>, choice: &Choice) -> Result<()> {
+        let has_luminance = count >= COLOURS && kind.is_none_or(|kind| MAY_BE_RGB.contains(&kind));
+        let words = if has_luminance { "luminance or magnitude" } else { "magnitude" };
         let known = format!("choose 0 to {}, {words}", count - 1);
         let (problem, remedy) = match choice.component {
             None if self.component.is_some() => (format!("is needed: each voxel has {count} values"), known),
+            Some(Component::Number(0)) if self.component.is_none() => return Ok(()),
             Some(c) if self.component.is_none() => {
                 (format!("is {c}, and each voxel has one value"), "leave it out".to_owned())
             }
             Some(Component::Number(n)) if n >= count => (format!("is {n}, and each voxel has {count} values"), known),
-            Some(Component::Luminance) if count < COLOURS => {
-                (format!("is luminance, and each voxel has {count} values"), known)
+            Some(Component::Luminance) if !has_luminance => {
+                let of = kind.map_or(String::new(), |kind| format!(" of kind {kind}"));
+                (
+                    format!("is luminance, and each voxel has {count} values{of}, which are not red, green and blue"),
+                    known,
+                )
             }
             _ => return Ok(()),
         };
@@ -149,3 +156,6 @@ impl Roles {
 
 /// Values that a colour has at the least.
 const COLOURS: usize = 3;
+/// Kinds of axes that may hold red, green and blue: many programs write colours as lists and vectors.
+const MAY_BE_RGB: [&str; 9] =
+    ["rgb-color", "rgba-color", "3-color", "4-color", "list", "vector", "3-vector", "4-vector", "domain"];

@@ -25,6 +25,7 @@ pub fn tests() -> Vec<Test> {
         test("textures::empty_range_shows_x_zero", empty_range_shows_x_zero),
         test("textures::nearest_is_that_of_the_twin", nearest_is_that_of_the_twin),
         test("textures::nothing_between_labels_shows", nothing_between_labels_shows),
+        test("textures::every_label_is_told_from_its_neighbours", every_label_is_told_from_its_neighbours),
     ];
     for (name, make) in LAWFUL {
         tests.push(test(&format!("textures::law_of_skipping::{name}"), move |device| law(device, &make(device))));
@@ -154,7 +155,8 @@ fn named_format_is_warned_of(device: &Arc<Device>) {
     (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
     let off = largest(&native, &Stage::new(device).shoot(&exact, None));
     let error = native.plan.texture.expect("a texture").error;
-    let warned = plan::warnings(&scene, &native.plan).iter().any(|warning| warning.contains("--filter exact"));
+    let warned =
+        plan::warnings(&scene, &native.plan).iter().any(|warning| warning.contains("an interpolated x is off"));
     assert_eq!(warned, error > scene.settings.volume.precision, "{error:e}");
     assert!(off <= native.plan.pixel_error, "{off:e} off where {:e} is stated", native.plan.pixel_error);
     // What is not warned of is not far off.
@@ -232,6 +234,30 @@ fn nothing_between_labels_shows(device: &Arc<Device>) {
         if method.distance().is_some() {
             let main: u64 = shot.run.fragments.expect("counts").main.iter().sum();
             assert_eq!(main, 0, "{} runs main fragments for nothing", method.name());
+        }
+    }
+}
+
+/// Transfer functions that jump at a label itself: whether it shows is for the last bit to say, in every format alike.
+fn every_label_is_told_from_its_neighbours(device: &Arc<Device>) {
+    for most in [7u16, 11] {
+        let voxels = || Voxels::U16(each(|i| (i as u16 / 3) % (most + 1)));
+        for label in 1..most {
+            let [begin, end] = [label, label + 1].map(|label| f64::from(label) / f64::from(most));
+            let knot = |x, opacity| Knot { x, color: [1.0; 3], opacity };
+            let knots = vec![knot(begin, 0.0), knot(begin, 0.6), knot(end, 0.6), knot(end, 0.0)];
+            let shot = |texture| {
+                let mut scene = of(device, voxels(), "ramp", |s| {
+                    (s.sampling.filter, s.volume.texture) = (Filter::Nearest, texture);
+                });
+                scene.transfer = TransferFunction::new("one label", knots.clone(), 1.0).expect("a transfer function");
+                Stage::new(device).shoot(&by(&scene, MethodName::Rc), None)
+            };
+            let [auto, native, float] = [VolumeTexture::Auto, VolumeTexture::Native, VolumeTexture::R32f].map(shot);
+            assert!(auto.picture.iter().any(|pixel| pixel[3] > 0.0), "label {label} of {most} does not show");
+            for other in [native, float] {
+                assert_eq!(differing(&auto.picture, &other.picture), 0, "label {label} of {most}");
+            }
         }
     }
 }
