@@ -17,7 +17,7 @@ struct Words<T: ?Sized>(T);
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
 /// Names of all modules the program was built with, sorted: `main_pass.frag`, `structure/cell_range.comp`,
-/// variants as `main_pass.frag:counting`.
+/// variants as `main_pass.frag:discard`.
 pub fn names() -> impl Iterator<Item = &'static str> {
     MODULES.iter().map(|(name, _)| *name)
 }

@@ -8,10 +8,11 @@
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
 //!
-//! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
+//! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume, and [`stability`] holds stiff and
+//! extreme scenes against the pictures they must give.
 //!
 //! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
-//! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- measure <- cli`.
+//! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- stability <- measure <- cli`.
 
 pub mod cli;
 pub mod error;

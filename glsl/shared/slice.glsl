@@ -15,7 +15,8 @@ layout(push_constant) uniform Slice {
     uint inner;
     uint outer;
     uint stride;
-    // Square of a cell's side along the scan's axis, in units of 1 / UNIT voxels, and the cells from which on it is FAR.
+    // Square of a cell's side along the scan's axis, in units of 1 / UNIT squared voxels, and the cells from which on it is
+    // FAR_SQUARED.
     uint weight;
     uint reach;
     // The octant distances are for: bit a set where rays go down on axis a.

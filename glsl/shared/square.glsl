@@ -1,4 +1,4 @@
-// Squared distances in integers, so that every device finds the same. Twin: src/structure/distance.rs.
+// Squared distances in integers, so that every device finds the same. Twin: src/structure/square.rs.
 
 // In a squared voxel of the finest spacing.
 const uint UNIT = 8192u;

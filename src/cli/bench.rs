@@ -85,6 +85,9 @@ enum Forms {
     All,
 }
 
+/// Differences are shown so many times as large: one of 1/255 is a grey that the eye sees.
+const GAIN: f64 = 100.0;
+
 /// What is run when no scene is given: a surface, thin structures in empty space, solid blocks.
 const BUILT_IN: [&str; 3] = ["builtin:shells:96", "builtin:jets:128", "builtin:blocks:96"];
 
@@ -186,8 +189,8 @@ impl Bench {
         let (mut pictures, mut differences): (Vec<(usize, Picture)>, Vec<Difference>) = (Vec::new(), Vec::new());
         for (i, one) in measured.into_iter().enumerate() {
             if let Some(reference) = &one.reference {
-                let gain = 100.0;
-                differences.push(Difference { run: i, gain, picture: difference(&one.picture, reference, gain)? });
+                let picture = difference(&one.picture, reference, GAIN)?;
+                differences.push(Difference { run: i, gain: GAIN, picture });
             }
             let settings = settings_in(&self.output, one.run.settings);
             runs.push(Run { settings, ..one.run });

@@ -4,13 +4,13 @@
 //! paths count from the root: `#include "shared/ray.glsl"`. A shader whose head says
 //!
 //! ```text
-//! //@variant counting COUNT
-//! //@variant exact FILTER=1 COUNT
+//! //@variant plain
+//! //@variant discard CULL_DISCARD
 //! ```
 //!
 //! becomes one module for each such line, with those macros defined; without such a line it is one module. A line
 //! `//@also NAME MACRO ...` doubles the variants above it: each is there once more, as `...+NAME`, with those macros too.
-//! Modules are named by their path from the root, `structure/cell_range.comp`, variants `main_pass.frag:counting`.
+//! Modules are named by their path from the root, `structure/cell_range.comp`, variants `main_pass.frag:discard`.
 
 use shaderc::{CompileOptions, Compiler, ResolvedInclude, ShaderKind};
 use std::fmt;
@@ -111,7 +111,7 @@ pub fn variants(root: &Path, file: &str) -> Result<Vec<Module>, Broken> {
     Ok(found)
 }
 
-/// Compiles one module for Vulkan 1.3 (SPIR-V 1.6), optimised.
+/// Compiles one module for Vulkan 1.3, as SPIR-V 1.5, optimised.
 ///
 /// Debug information stays in: the optimiser strips the names of bindings and members without it, and bindings
 /// are made by name.

@@ -1,5 +1,5 @@
-//! From counts, times and pictures to tables, JSON, CSV and the report. Knows no Vulkan: `frame` fills a
-//! [`record::Run`], everything here only reads it.
+//! From counts, times and pictures to tables, JSON, CSV and the report: [`runner`] runs frames and fills a
+//! [`record::Run`], everything else here only reads it.
 //!
 //! 1. [`record`]: one run and the results file; the reference of the format.
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.

@@ -25,6 +25,9 @@ fn is_grey(transfer: &TransferFunction) -> bool {
     transfer.knots().iter().all(|knot| knot.color.iter().all(|c| *c == knot.color[0]))
 }
 
+/// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.
+const ROUNDING: f64 = 1e-6;
+
 /// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and the longest
 /// ray, rounding included.
 fn may_end(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
@@ -41,14 +44,14 @@ fn may_end(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
         Alpha::Exponential => (samples * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
         Alpha::Paper => (samples * (-greatest).ln_1p()).exp(),
     };
-    let rounding = f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * 1e-6;
+    let rounding = f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * ROUNDING;
     1.0 - clear + rounding > sampling.termination
 }
 
 /// The greatest opacity of any value from `low` to `high`.
 fn greatest_opacity(transfer: &TransferFunction, low: f64, high: f64) -> f64 {
     // Interpolation may leave the range by its rounding.
-    let by = 1e-6 * low.abs().max(high.abs());
+    let by = ROUNDING * low.abs().max(high.abs());
     let (low, high) = (low - by, high + by);
     let inside = transfer.knots().iter().filter(|knot| low <= knot.x && knot.x <= high).map(|knot| knot.opacity);
     let ends = [low, high].map(|x| transfer.evaluate(x)[3]);

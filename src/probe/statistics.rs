@@ -12,16 +12,19 @@ pub struct Known {
     pub half: u64,
 }
 
+/// A count may lack this part: drivers add up what several groups of threads counted, and the last may come late.
+const LESS: f64 = 0.999;
 /// Helper invocations at edges may be counted.
 const MORE: f64 = 1.3;
+/// Shaders run in groups, so that this part of a picture may run beside an edge.
+const BESIDE: f64 = 0.1;
 
 /// Why the counts are not believed; none where they are.
 pub fn doubt(known: &Known) -> Option<String> {
     let part = |count: u64| count as f64 / known.pixels as f64;
     let within = |count: u64, expected: f64| {
         let part = part(count);
-        // Shaders run in groups, so that a tenth may run beside an edge.
-        part >= expected * 0.999 && part <= expected * MORE + 0.1
+        part >= expected * LESS && part <= expected * MORE + BESIDE
     };
     for (what, count, expected) in [("all", known.none, 1.0), ("half of", known.half, 0.5), ("none of", known.all, 0.0)]
     {

@@ -1,4 +1,4 @@
-//! What is to be seen, with no word about how: volume, transfer function, camera, sampling, method.
+//! What is to be seen, and by which method: volume, transfer function, camera, sampling, settings. Knows no Vulkan.
 
 pub mod builtin;
 pub mod camera;

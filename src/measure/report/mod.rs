@@ -1,5 +1,4 @@
-//! `report.html`: one file that needs nothing else. It only reads the results, so it can be made again from
-//! `results.json`; what it claims is computed from the runs.
+//! `report.html`: one file that needs nothing else. What it claims is computed from the runs; pictures come beside them.
 
 mod claim;
 pub mod html;
