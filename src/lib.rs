@@ -11,7 +11,7 @@
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume, and [`stability`] holds stiff and
 //! extreme scenes against the pictures they must give.
 //!
-//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
+//! Imports point one way: `error, math, provenance <- scene <- read, structure <- reference, shared`;
 //! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- stability <- measure <- cli`.
 
 pub mod cli;
@@ -23,6 +23,7 @@ pub mod measure;
 pub mod pass;
 pub mod plan;
 pub mod probe;
+pub mod provenance;
 pub mod read;
 pub mod reference;
 pub mod scene;

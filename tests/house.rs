@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &[&str]); 16] = [
+const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ("error", &[]),
     ("math", &[]),
+    ("provenance", &[]),
     ("scene", &["error", "math"]),
     ("read", &["error", "math", "scene"]),
     ("structure", &["error", "math", "scene"]),
@@ -15,7 +16,7 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
     ("vulkan", &["error"]),
     ("reference", &["error", "math", "scene", "structure"]),
     ("shared", &["error", "math", "scene", "structure", "reference"]),
-    ("probe", &["error", "glsl", "vulkan"]),
+    ("probe", &["error", "provenance", "glsl", "vulkan"]),
     ("pass", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared"]),
     ("plan", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "pass"]),
     (
@@ -27,6 +28,7 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
         "measure",
         &[
             "error",
+            "provenance",
             "math",
             "scene",
             "read",
@@ -46,6 +48,7 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
         "cli",
         &[
             "error",
+            "provenance",
             "math",
             "scene",
             "read",

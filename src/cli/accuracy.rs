@@ -2,11 +2,9 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::time::SystemTime;
 
 use clap::Args;
 
-use super::bench::command_line;
 use super::open::DeviceOptions;
 use super::options::{MethodOptions, SceneOptions, is_scene_file, scene_name};
 use super::output::{Progress, settings_in, write_json};
@@ -20,6 +18,7 @@ use crate::measure::picture::{Picture, similarity};
 use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Measured, Runner, view_in_words};
 use crate::measure::write::{self, write_atomically};
+use crate::provenance::Provenance;
 use crate::read;
 use crate::reference::exact::ExactIntegrator;
 use crate::reference::preintegrated;
@@ -219,7 +218,7 @@ impl Accuracy {
         let scene = read::scene(&settings)?;
         let checked = self.device.open()?;
         let progress = Progress::new();
-        let date = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+        let provenance = Provenance::now(FORMAT);
         progress.say("exact integral");
         let truth = exact(&scene)?;
         let opaque = f64::from(truth.pixels.iter().map(|p| p[3]).fold(0.0, f32::max)) > settings.sampling.termination;
@@ -243,11 +242,7 @@ impl Accuracy {
         let info = checked.device.info.clone();
         self.device.close(checked)?;
         let found = Found {
-            version: FORMAT,
-            program: format!("depthleap {}", env!("CARGO_PKG_VERSION")),
-            commit: env!("DEPTHLEAP_COMMIT").to_owned(),
-            command: command_line(),
-            date,
+            provenance,
             scene: scene_name(&settings),
             view: view_in_words(&scene),
             device: info.name.clone(),

@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::time::SystemTime;
 
 use clap::{Args, ValueEnum};
 
@@ -20,6 +19,7 @@ use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
 use crate::pass::cull::Form;
 use crate::probe::{self, Probe};
+use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::settings::{CELLS, Cull, EXTRA_FETCHES, MethodName, MethodSettings, Settings};
 
@@ -196,14 +196,7 @@ impl Bench {
             runs.push(Run { settings, ..one.run });
             pictures.push((i, one.picture));
         }
-        let results = Results {
-            version: FORMAT,
-            program: format!("depthleap {}", env!("CARGO_PKG_VERSION")),
-            commit: env!("DEPTHLEAP_COMMIT").to_owned(),
-            command: command_line(),
-            date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-            runs,
-        };
+        let results = Results { provenance: Provenance::now(FORMAT), runs };
         let probe = self.probe_of(&results);
         let input = ReportInput {
             title: "Depthleap bench",
@@ -245,14 +238,4 @@ fn available(checked: Option<&Checked>, form: Form) -> bool {
         let missing = matches!(checked.check.forms.get(&form), Some(Verdict::Missing(_)));
         !missing && (form.cull != Cull::Bounds || checked.device.info.depth_bounds)
     })
-}
-
-/// The command line without the program's folder, words quoted where they need it.
-pub(super) fn command_line() -> String {
-    let quoted = |word: String| {
-        let plain = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "-_./,:=+".contains(c));
-        if plain { word } else { format!("'{word}'") }
-    };
-    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
-    std::iter::once("depthleap".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

@@ -1,11 +1,9 @@
 //! `depthleap probe`: what this driver culls before shading, and how fast.
 
 use std::path::PathBuf;
-use std::time::SystemTime;
 
 use clap::Args;
 
-use super::bench::command_line;
 use super::open::DeviceOptions;
 use super::output::{Progress, write_json};
 use crate::error::{Error, Result};
@@ -13,6 +11,7 @@ use crate::measure::probe::{compare, page, text};
 use crate::measure::write::{self, write_atomically};
 use crate::probe::record::{self, DeviceRecord, FORMAT, Probe as Record};
 use crate::probe::run::{Found, probe};
+use crate::provenance::Provenance;
 
 /// What this driver culls before shading, and how fast
 ///
@@ -45,29 +44,15 @@ impl Probe {
         let other = self.compare.as_ref().map(|path| read(path)).transpose()?;
         let opened = self.device.open_unchecked()?;
         let progress = Progress::new();
-        let date = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+        let provenance = Provenance::now(FORMAT);
         let found = probe(&opened, self.quick, &|what| progress.say(what));
         drop(progress);
         let device = DeviceRecord::from(&opened.info);
         let instance = opened.instance().clone();
         drop(opened);
         let Found { clock, statistics, work, sides, formats, lines, marks } = found?;
-        let record = Record {
-            version: FORMAT,
-            program: format!("depthleap {}", env!("CARGO_PKG_VERSION")),
-            commit: env!("DEPTHLEAP_COMMIT").to_owned(),
-            command: command_line(),
-            date,
-            device,
-            clock,
-            statistics,
-            work,
-            sides,
-            quick: self.quick,
-            formats,
-            lines,
-            marks,
-        };
+        let record =
+            Record { provenance, device, clock, statistics, work, sides, quick: self.quick, formats, lines, marks };
         DeviceOptions::judge(&instance)?;
         write::create_folder(&self.output)?;
         write_json(&self.output.join("probe.json"), &record)?;

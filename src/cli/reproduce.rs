@@ -1,11 +1,9 @@
 //! `depthleap reproduce`: the papers' tables, theirs beside ours.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use clap::Args;
 
-use super::bench::command_line;
 use super::open::DeviceOptions;
 use super::output::{Progress, settings_in};
 use crate::error::Result;
@@ -14,6 +12,7 @@ use crate::measure::reproduce::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PAS
 use crate::measure::reproduce::{Column, FORMAT, Reproduction, Shown, Variant, csv, page, text};
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::measure::{Run, write, write_atomically};
+use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::Camera;
 use crate::scene::settings::{Alpha, MethodName, MethodSettings, Settings};
@@ -153,14 +152,7 @@ impl Reproduce {
         for run in columns.iter_mut().flat_map(|c| &mut c.variants).flat_map(|v| &mut v.runs) {
             run.settings = settings_in(&self.output, run.settings.clone());
         }
-        let found = Reproduction {
-            version: FORMAT,
-            program: format!("depthleap {}", env!("CARGO_PKG_VERSION")),
-            commit: env!("DEPTHLEAP_COMMIT").to_owned(),
-            command: command_line(),
-            date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-            columns,
-        };
+        let found = Reproduction { provenance: Provenance::now(FORMAT), columns };
         super::output::write_json(&self.output.join("reproduce.json"), &found)?;
         write_atomically(&self.output.join("reproduce.csv"), csv(&found)?.as_bytes())?;
         let report = self.output.join("reproduce.html");

@@ -1,16 +1,16 @@
 //! `depthleap stability`: stiff and extreme cases.
 
 use std::path::PathBuf;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 use clap::Args;
 
-use super::bench::command_line;
 use super::open::DeviceOptions;
 use super::output::{Progress, write_json};
 use crate::error::{Error, Result};
 use crate::measure::stability::{CaseRecord, FORMAT, OnDevice, Stability as Found, page, text};
 use crate::measure::write::{self, write_atomically};
+use crate::provenance::Provenance;
 use crate::scene::settings::MethodName;
 use crate::stability::{Case, Verdict, battery, judge};
 
@@ -56,7 +56,7 @@ impl Stability {
         let methods = if self.method.is_empty() { &MethodName::ALL[..] } else { &self.method };
         let checked = self.device.open()?;
         let progress = Progress::new();
-        let date = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+        let provenance = Provenance::now(FORMAT);
         let mut records = Vec::with_capacity(cases.len());
         let mut integrator = OnDevice::new(&checked);
         for (i, case) in cases.iter().enumerate() {
@@ -70,11 +70,7 @@ impl Stability {
         let info = checked.device.info.clone();
         self.device.close(checked)?;
         let found = Found {
-            version: FORMAT,
-            program: format!("depthleap {}", env!("CARGO_PKG_VERSION")),
-            commit: env!("DEPTHLEAP_COMMIT").to_owned(),
-            command: command_line(),
-            date,
+            provenance,
             device: info.name.clone(),
             driver: format!("{} {}", info.driver_name, info.driver_info),
             cases: records,

@@ -112,10 +112,10 @@ fn fixed_fields(results: &Results, run: &Run) -> Row {
     put("error_reference", or_empty(error.map(|e| &e.reference)));
     put("device", run.device.clone());
     put("driver", run.driver.clone());
-    put("program", results.program.clone());
-    put("commit", results.commit.clone());
-    put("command", results.command.clone());
-    put("date", results.date.clone());
+    put("program", results.provenance.program.clone());
+    put("commit", results.provenance.commit.clone());
+    put("command", results.provenance.command.clone());
+    put("date", results.provenance.date.clone());
     put("version", run.version.to_string());
 
     let per_pass = |counts: Option<&Counts>, of: fn(&Counts) -> &Vec<u64>| or_empty(counts.map(|c| join(of(c), " ")));

@@ -58,6 +58,7 @@ use serde::{Deserialize, Serialize};
 pub use super::entries::{Clock, Counts, ErrorRecord, Ideal, LeftOut, OrbitFrame, PassTimes, Saved, TextureRecord};
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
+use crate::provenance::Provenance;
 use crate::scene::Settings;
 
 /// The version of the format written here.
@@ -112,11 +113,8 @@ pub struct Run {
 /// The runs of one command.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Results {
-    pub version: u32,
-    pub program: String,
-    pub commit: String,
-    pub command: String,
-    pub date: String,
+    #[serde(flatten)]
+    pub provenance: Provenance,
     pub runs: Vec<Run>,
 }
 

@@ -10,6 +10,7 @@ use super::marks::MarkCost;
 use super::measure::{Clock, Cost};
 use super::rule::Promise;
 use crate::error::{Error, Result};
+use crate::provenance::Provenance;
 use crate::vulkan::DeviceInfo;
 
 /// The version of the format written here.
@@ -18,11 +19,8 @@ pub const FORMAT: u32 = 1;
 /// All that was found of a device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
-    pub version: u32,
-    pub program: String,
-    pub commit: String,
-    pub command: String,
-    pub date: String,
+    #[serde(flatten)]
+    pub provenance: Provenance,
     pub device: DeviceRecord,
     /// What `ms` are.
     pub clock: Clock,

@@ -6,6 +6,7 @@ use depthleap::measure::accuracy::{
 };
 use depthleap::measure::picture::similarity;
 use depthleap::measure::record::Clock;
+use depthleap::provenance::Provenance;
 use depthleap::read;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, Settings};
@@ -123,11 +124,13 @@ fn found() -> Accuracy {
     ];
     mark_pareto(&mut curves);
     Accuracy {
-        version: FORMAT,
-        program: "depthleap".into(),
-        commit: "abc".into(),
-        command: "depthleap accuracy".into(),
-        date: "2026-01-02T03:04:05Z".into(),
+        provenance: Provenance {
+            version: FORMAT,
+            program: "depthleap".into(),
+            commit: "abc".into(),
+            command: "depthleap accuracy".into(),
+            date: "2026-01-02T03:04:05Z".into(),
+        },
         scene: "gaussian".into(),
         view: "front".into(),
         device: "llvmpipe".into(),

@@ -161,7 +161,10 @@ mod report {
                 error.reference = evil.into();
             }
         }
-        for text in [&mut results.program, &mut results.commit, &mut results.command, &mut results.date] {
+        for text in {
+            let made = &mut results.provenance;
+            [&mut made.program, &mut made.commit, &mut made.command, &mut made.date]
+        } {
             *text = evil.into();
         }
         let page = page(&results);

@@ -7,6 +7,7 @@ use depthleap::probe::marks::MarkCost;
 use depthleap::probe::measure::{Clock, Cost, Mixed};
 use depthleap::probe::record::{self, Correct, DeviceRecord, FORMAT, Line, Probe};
 use depthleap::probe::{Compare, Culling, History, Mechanism, Shader, Verdict};
+use depthleap::provenance::Provenance;
 
 fn case(mechanism: Mechanism, shader: Shader) -> Case {
     Case { mechanism, shader, compare: Compare::GreaterOrEqual }
@@ -57,11 +58,13 @@ fn record() -> Probe {
         rejected_per_second: Some(1.5e9),
     };
     Probe {
-        version: FORMAT,
-        program: "depthleap".into(),
-        commit: "abc".into(),
-        command: "depthleap probe".into(),
-        date: "2026-01-02T03:04:05Z".into(),
+        provenance: Provenance {
+            version: FORMAT,
+            program: "depthleap".into(),
+            commit: "abc".into(),
+            command: "depthleap probe".into(),
+            date: "2026-01-02T03:04:05Z".into(),
+        },
         device: DeviceRecord {
             name: "A <device>".into(),
             driver: "a driver 1".into(),

@@ -4,6 +4,7 @@ use depthleap::measure::Picture;
 use depthleap::measure::record::{Counts, Ideal, Run};
 use depthleap::measure::reproduce::papers::{DATA_SETS, DataSet, FOV, Row, VIEWPORT};
 use depthleap::measure::reproduce::{Column, FORMAT, Reproduction, Shown, Variant, csv, lines, page, text, verdict};
+use depthleap::provenance::Provenance;
 
 use crate::runs::run;
 
@@ -82,11 +83,13 @@ fn found() -> Reproduction {
         variants: if set.name == "Engine" { vec![variant("main", 600), variant("threshold T", 900)] } else { vec![] },
     };
     Reproduction {
-        version: FORMAT,
-        program: "depthleap".to_owned(),
-        commit: "none".to_owned(),
-        command: "depthleap reproduce".to_owned(),
-        date: "2026-01-01T00:00:00Z".to_owned(),
+        provenance: Provenance {
+            version: FORMAT,
+            program: "depthleap".to_owned(),
+            commit: "none".to_owned(),
+            command: "depthleap reproduce".to_owned(),
+            date: "2026-01-01T00:00:00Z".to_owned(),
+        },
         columns: DATA_SETS.iter().map(column).collect(),
     }
 }

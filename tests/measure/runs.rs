@@ -12,6 +12,7 @@ use depthleap::measure::record::FORMAT;
 use depthleap::measure::record::Ideal;
 use depthleap::measure::record::LeftOut;
 use depthleap::measure::record::PassTimes;
+use depthleap::provenance::Provenance;
 use depthleap::scene::Settings;
 use std::collections::BTreeMap;
 /// A run as `frame` would fill it, with small counts one can check by eye.
@@ -68,11 +69,13 @@ pub fn results() -> Results {
     let mut cpu = run("cpu", &[10_000, 9_000], &[10_000]);
     (cpu.cull, cpu.gpu_ms, cpu.gpu_ms_per_pass, cpu.error) = (None, None, None, None);
     Results {
-        version: FORMAT,
-        program: "depthleap 0.1.0".into(),
-        commit: "0123abc".into(),
-        command: "depthleap bench fuel.toml -o out".into(),
-        date: "2005-07-01T12:00:00Z".into(),
+        provenance: Provenance {
+            version: FORMAT,
+            program: "depthleap 0.1.0".into(),
+            commit: "0123abc".into(),
+            command: "depthleap bench fuel.toml -o out".into(),
+            date: "2005-07-01T12:00:00Z".into(),
+        },
         runs: vec![
             run("rc-block", &[10_000, 2_000, 0], &[10_000, 10_000]),
             run("nn-omni", &[1_500, 1_500, 0], &[2_000, 500]),

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::record::Clock;
 use super::timing::Timing;
+use crate::provenance::Provenance;
 use crate::scene::Settings;
 
 pub use explain::{expected_order, remarks};
@@ -22,11 +23,8 @@ pub const FORMAT: u32 = 1;
 /// `accuracy.json`. Errors are of premultiplied linear RGBA against the emission-absorption integral in f64.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    pub version: u32,
-    pub program: String,
-    pub commit: String,
-    pub command: String,
-    pub date: String,
+    #[serde(flatten)]
+    pub provenance: Provenance,
     pub scene: String,
     pub view: String,
     pub device: String,

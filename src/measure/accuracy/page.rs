@@ -19,9 +19,7 @@ pub fn page(found: &Accuracy) -> Result<String> {
     if let Some(clock) = found.clock {
         page.fact("Time", clock.words());
     }
-    page.fact("Date", &found.date);
-    page.fact("Program", &format!("{}, commit {}", found.program, found.commit));
-    page.fact("Command", &found.command);
+    page.provenance(&found.provenance);
     page.raw("</dl>\n");
     found.remarks.iter().for_each(|remark| page.tag("p", remark));
     if let Some(svg) = time_svg(found)? {

@@ -8,7 +8,7 @@ const ALIKE: f64 = 1.5;
 
 /// What differs, a line each: which is which first.
 pub fn compare(ours: &Probe, theirs: &Probe) -> Vec<String> {
-    let name = |probe: &Probe| format!("{}, {} ({})", probe.device.name, probe.device.driver, probe.date);
+    let name = |probe: &Probe| format!("{}, {} ({})", probe.device.name, probe.device.driver, probe.provenance.date);
     let mut found = vec![format!("this:  {}", name(ours)), format!("other: {}", name(theirs))];
     let before = found.len();
     let mut put = |what: String, this: String, other: String| {

@@ -24,9 +24,7 @@ pub fn section(page: &mut Html, probe: &Probe) {
     for (term, words) in facts(probe) {
         page.fact(term, &words);
     }
-    page.fact("Date", &probe.date);
-    page.fact("Program", &format!("{}, commit {}", probe.program, probe.commit));
-    page.fact("Command", &probe.command);
+    page.provenance(&probe.provenance);
     page.raw("</dl>\n");
     map(page, probe);
     patterns(page, probe);

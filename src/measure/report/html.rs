@@ -6,6 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::error::Result;
 use crate::measure::comparison::{COLUMNS, Cell, Grid, note_mark};
 use crate::measure::picture::{Format, Picture};
+use crate::provenance::Provenance;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -75,6 +76,13 @@ impl Html {
     /// A term and what it is, within a `dl`.
     pub fn fact(&mut self, term: &str, text: &str) {
         self.raw(&format!("<dt>{}</dt><dd>{}</dd>\n", escape(term), escape(text)));
+    }
+
+    /// The facts of where results come from, within a `dl`.
+    pub fn provenance(&mut self, made: &Provenance) {
+        self.fact("Date", &made.date);
+        self.fact("Program", &made.made_by());
+        self.raw(&format!("<dt>Command</dt><dd><code>{}</code></dd>\n", escape(&made.command)));
     }
 
     /// What is shown when asked for.

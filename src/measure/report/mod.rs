@@ -100,7 +100,6 @@ fn head(page: &mut Html, input: &ReportInput) {
         let verdicts = if verdicts.is_empty() { "not run".into() } else { format!("<ul>{verdicts}</ul>") };
         page.raw(&format!("<dt>Self-check of culling</dt><dd>{verdicts}</dd>\n"));
     }
-    page.fact("Date", &results.date);
-    page.fact("Program", &format!("{}, commit {}", results.program, results.commit));
-    page.raw(&format!("<dt>Command</dt><dd><code>{}</code></dd>\n</dl>\n", escape(&results.command)));
+    page.provenance(&results.provenance);
+    page.raw("</dl>\n");
 }

@@ -23,6 +23,7 @@ pub use text::{csv, text};
 
 use super::picture::Picture;
 use super::record::Run;
+use crate::provenance::Provenance;
 
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;
@@ -30,11 +31,8 @@ pub const FORMAT: u32 = 1;
 /// What was counted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reproduction {
-    pub version: u32,
-    pub program: String,
-    pub commit: String,
-    pub command: String,
-    pub date: String,
+    #[serde(flatten)]
+    pub provenance: Provenance,
     pub columns: Vec<Column>,
 }
 

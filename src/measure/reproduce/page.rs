@@ -21,9 +21,7 @@ pub fn page(found: &Reproduction, pictures: &[Shown]) -> Result<String> {
          leaves open is swept.",
     );
     page.raw("</div>\n<dl class=\"facts\">\n");
-    page.fact("Program", &format!("{}, commit {}", found.program, found.commit));
-    page.fact("Date", &found.date);
-    page.fact("Command", &found.command);
+    page.provenance(&found.provenance);
     if let Some(run) = found.columns.iter().flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {
         page.fact("Device", &format!("{}, {}", run.device, run.driver));
     }

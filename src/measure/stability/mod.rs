@@ -6,6 +6,7 @@ mod text;
 
 use serde::{Deserialize, Serialize};
 
+use crate::provenance::Provenance;
 use crate::stability::{Case, Outcome, Verdict};
 
 pub use device::OnDevice;
@@ -18,11 +19,8 @@ pub const FORMAT: u32 = 1;
 /// `stability.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stability {
-    pub version: u32,
-    pub program: String,
-    pub commit: String,
-    pub command: String,
-    pub date: String,
+    #[serde(flatten)]
+    pub provenance: Provenance,
     pub device: String,
     pub driver: String,
     pub cases: Vec<CaseRecord>,

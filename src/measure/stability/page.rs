@@ -13,9 +13,7 @@ pub fn page(found: &Stability) -> String {
     page.tag("p", &format!("{}.", found.summary()));
     page.raw("</div>\n<dl class=\"facts\">\n");
     page.fact("Device", &format!("{}, {}", found.device, found.driver));
-    page.fact("Date", &found.date);
-    page.fact("Program", &format!("{}, commit {}", found.program, found.commit));
-    page.fact("Command", &found.command);
+    page.provenance(&found.provenance);
     page.raw("</dl>\n");
     page.tag(
         "p",
