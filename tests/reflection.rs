@@ -3,7 +3,13 @@
 #[path = "device/shader.rs"]
 mod shader;
 
+#[path = "plan/cases.rs"]
+mod cases;
+
+use std::collections::{BTreeMap, BTreeSet};
+
 use depthleap::glsl;
+use depthleap::pass::Work;
 use depthleap::shared;
 use depthleap::vulkan::{Shader, vk};
 
@@ -102,6 +108,32 @@ fn push_constants_are_as_large_as_their_struct() {
     }
     assert_eq!(module("entry.frag").push_constants, 0, "declared in a header, and used nowhere");
     assert_eq!(shader::shader("vulkan/color.frag").push_constants, 16);
+}
+
+/// A module lacks the constants it has no use for; one that no variant of its file has is misspelt.
+#[test]
+fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
+    let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let file = |name: &str| name.split(':').next().unwrap_or(name).to_owned();
+    for name in glsl::names() {
+        let found = module(name).spec_constants.into_iter().map(|(constant, _)| constant);
+        known.entry(file(name)).or_default().extend(found);
+    }
+    let mut asked = 0;
+    for case in cases::cases() {
+        for step in &case.plan.steps {
+            let (shader, constants) = match &step.work {
+                Work::Draw(draw) => (draw.shader.as_deref().unwrap_or_default(), draw.constants.as_slice()),
+                Work::Dispatch(dispatch) => (dispatch.shader.as_str(), dispatch.constants.as_slice()),
+                _ => continue,
+            };
+            for (constant, _) in constants {
+                assert!(known[&file(shader)].contains(*constant), "{constant} of {} in {}", step.name, case.name);
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 100, "{asked} constants were looked at");
 }
 
 #[test]

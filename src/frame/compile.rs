@@ -9,7 +9,7 @@ use super::pipelines::PipelineKey;
 use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
-use crate::pass::resource::{Resource, Usage};
+use crate::pass::resource::{Access, Resource, Usage};
 use crate::pass::{Draw, Faces, Group, Step, Work};
 use crate::plan::{Plan, Region, bytes_per_pixel};
 use crate::scene::Scene;
@@ -58,7 +58,8 @@ struct Compiler<'a> {
     linear: Option<Sampler>,
     nearest: Sampler,
     framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
-    sets: HashMap<PipelineKey, Arc<DescriptorSet>>,
+    /// By pipeline and by what is bound to it.
+    sets: HashMap<(PipelineKey, Arc<Vec<Access>>), Arc<DescriptorSet>>,
 }
 
 /// The format of a target.
@@ -272,7 +273,8 @@ impl Compiler<'_> {
 
     fn set(&mut self, key: &PipelineKey, step: &Step, pipeline: &GraphicsPipeline) -> Result<Arc<DescriptorSet>> {
         use crate::vulkan::Resource as Bound;
-        if let Some(known) = self.sets.get(key) {
+        let by = (key.clone(), step.accesses.clone());
+        if let Some(known) = self.sets.get(&by) {
             return Ok(known.clone());
         }
         let mut bound: Vec<(&str, Bound)> = Vec::new();
@@ -295,7 +297,7 @@ impl Compiler<'_> {
         }
         let name = step.pass_name();
         let made = Arc::new(DescriptorSet::new(self.device, name, &pipeline.layout, &bound)?);
-        self.sets.insert(key.clone(), made.clone());
+        self.sets.insert(by, made.clone());
         Ok(made)
     }
 
