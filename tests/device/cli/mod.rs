@@ -103,7 +103,7 @@ fn viewport_beyond_the_limit(device: &Arc<Device>) {
 fn unknown_device(device: &Arc<Device>) {
     let place = Place::new();
     for wanted in ["nonesuch", "77"] {
-        let parts = [wanted, "no device has that name", &device.info.name, "choose another"];
+        let parts = [wanted, "no device has that", &device.info.name, "choose another"];
         place.refused(&format!("render {SMALL} --device {wanted} -o a.png"), 4, &parts);
     }
 }
