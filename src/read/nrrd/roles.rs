@@ -132,7 +132,7 @@ impl Roles {
 
     fn check_component(&self, path: &Path, count: usize, kind: Option<&str>, choice: &Choice) -> Result<()> {
         let has_luminance = count >= COLOURS && kind.is_none_or(|kind| MAY_BE_RGB.contains(&kind));
-        let words = if has_luminance { "luminance or magnitude" } else { "magnitude" };
+        let words = if has_luminance { "luminance or magnitude" } else { "or magnitude" };
         let known = format!("choose 0 to {}, {words}", count - 1);
         let (problem, remedy) = match choice.component {
             None if self.component.is_some() => (format!("is needed: each voxel has {count} values"), known),
