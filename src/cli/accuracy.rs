@@ -206,7 +206,7 @@ impl Accuracy {
         if self.scene_options.termination.is_none() && !of_a_file {
             settings.sampling.termination = TERMINATION;
         }
-        if self.method.contains(&MethodName::Cpu) {
+        if self.method.iter().any(|method| !method.on_device()) {
             let remedy = "leave it out; every picture is held against the exact integral";
             return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
         }

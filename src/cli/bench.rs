@@ -114,7 +114,7 @@ impl Bench {
         let mut opened: Option<Checked> = None;
         for settings in &scenes {
             let scene = read::scene(settings)?;
-            if opened.is_none() && self.method.iter().any(|name| *name != MethodName::Cpu) {
+            if opened.is_none() && self.method.iter().any(|name| name.on_device()) {
                 opened = Some(self.device.open()?);
             }
             let runner = Runner::new(opened.as_ref(), scene, scene_name(settings));

@@ -91,9 +91,9 @@ impl Render {
 
     fn measure(&self, settings: &Settings) -> Result<Measured> {
         let scene = read::scene(settings)?;
-        let opened = match settings.method.name {
-            MethodName::Cpu => None,
-            _ => Some(self.device.open()?),
+        let opened = match settings.method.name.on_device() {
+            false => None,
+            true => Some(self.device.open()?),
         };
         let effort = Effort { warmups: 1, repeats: self.repeats, reference: self.reference_error };
         let progress = Progress::new();

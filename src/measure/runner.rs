@@ -19,7 +19,7 @@ use crate::pass::cull::Form;
 use crate::pass::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::settings::{Builder, Cull, MethodName, MethodSettings, Settings};
+use crate::scene::settings::{Builder, Cull, MethodSettings, Settings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -150,7 +150,7 @@ impl<'a> Runner<'a> {
     fn plan(&self, method: &MethodSettings) -> Result<(Scene, Plan)> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let plan = if method.name == MethodName::Cpu {
+        let plan = if !method.name.on_device() {
             plan::plan(&scene, plan::papers_form(method.name))?
         } else {
             let checked = self.checked.ok_or_else(no_device)?;
@@ -166,7 +166,7 @@ impl<'a> Runner<'a> {
 
     fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
         let (scene, plan) = self.plan(method)?;
-        if method.name == MethodName::Cpu {
+        if !method.name.on_device() {
             return prepare_cpu(scene, plan);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
@@ -187,14 +187,14 @@ impl<'a> Runner<'a> {
 
     /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
-        let terminates = scene.settings.method.name != MethodName::Rc;
+        let method = scene.settings.method.name;
         let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
-        match self.references.entry(terminates) {
+        match self.references.entry(method.ends_rays()) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
                 let mut scene = scene.clone();
                 scene.settings.sampling.passes = passes;
-                scene.settings.method.name = if terminates { MethodName::RcErt } else { MethodName::Rc };
+                scene.settings.method.name = method.without_skipping();
                 let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
                 let structures = Structures { table: self.structures.table.clone(), ..Structures::default() };
                 Ok(place.insert(cpu::run(&scene, &plan, &structures, bits)))
@@ -210,7 +210,7 @@ impl<'a> Runner<'a> {
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
             error = Some(compared.record("the same sum in f64 (`cpu`)"));
-            ideal = (entry.scene.settings.method.name != MethodName::Rc).then_some(Ideal { main: frame.ideal });
+            ideal = entry.scene.settings.method.name.ends_rays().then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
         let on_cpu = entry.frame.is_none();
@@ -271,7 +271,7 @@ impl<'a> Runner<'a> {
                 notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
             }
         }
-        if entry.scene.settings.method.name == MethodName::RcBlock {
+        if entry.scene.settings.method.name.skips_blocks() {
             let first = entry.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
             notes.push(format!("blocks are tested {order}"));
@@ -326,7 +326,7 @@ fn warnings(entry: &Entry) -> Vec<String> {
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
 /// and notes what was found.
 pub fn law_of_skipping(measured: &mut [Measured]) {
-    let ends_early = |one: &Measured| one.run.cull.is_some();
+    let ends_early = |one: &Measured| one.run.settings.method.name.under_the_law();
     let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
     let Some(rule) = ended_early.next() else { return };
     let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));

@@ -87,7 +87,7 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
     let Some(automatic) = automatic else {
         return Ok(None);
     };
-    if method.name == MethodName::Cpu {
+    if !method.name.on_device() {
         return Ok(Some(automatic));
     }
     let near_neighbor = method.name.distance().is_some();
@@ -153,7 +153,7 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
         }
     }
     let distance = Lookup::of(scene).filter(|_| passes > 0 && needs.skips);
-    let on_device = scene.settings.method.name != MethodName::Cpu;
+    let on_device = scene.settings.method.name.on_device();
     let texture = (on_device && passes > 0).then(|| TextureChoice::of(scene));
     let error = texture.map_or(0.0, |texture| texture.error);
     let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, needs.ends);
@@ -206,7 +206,7 @@ fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], le
     let never_ends = format!("no ray of this view comes to an opacity above {}", sampling.termination);
     const DENSE: &str =
         "every cell is interesting, so that there is nothing to skip: slices or a single pass would do as well";
-    let looks_ahead = method.name.distance().is_some() || method.name == MethodName::RcBlock;
+    let looks_ahead = method.name.looks_ahead();
     if form.is_none() {
         leave("intermediate passes and the depth buffer", format!("{name} culls no fragments"));
     } else if !uses(Resource::Stored) {
@@ -219,12 +219,15 @@ fn leave_out(scene: &Scene, needs: Needs, form: Option<Form>, steps: &[Step], le
         leave("intermediate passes after the first", "main passes decide where rays go on".to_owned());
     }
     if !uses(Resource::NearestDistance) {
-        let why =
-            if method.name.distance().is_some() { DENSE.to_owned() } else { format!("{name} does not look ahead") };
+        let why = match (method.name.distance(), method.name.skips_blocks()) {
+            (Some(_), _) => DENSE.to_owned(),
+            (None, true) => format!("{name} skips by blocks"),
+            (None, false) => format!("{name} does not look ahead"),
+        };
         leave("distance structure", why);
     }
     if !uses(Resource::CellRange) {
-        let blocks = method.name == MethodName::RcBlock;
+        let blocks = method.name.skips_blocks();
         let why = if blocks { DENSE.to_owned() } else { format!("{name} does not look at blocks") };
         leave("block ranges and their table", why);
     }

@@ -2,7 +2,7 @@
 
 use crate::pass::Needs;
 use crate::reference::fused::blend_rounding;
-use crate::scene::settings::{Alpha, MethodName};
+use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
 use crate::structure::cells::all_interesting;
 
@@ -12,7 +12,7 @@ pub fn needs(scene: &Scene, longest_samples: u32, passes: u32) -> Needs {
     if !method.planner {
         return Needs::ALL;
     }
-    let looks_ahead = method.name.distance().is_some() || method.name == MethodName::RcBlock;
+    let looks_ahead = method.name.looks_ahead();
     Needs {
         ends: may_end(scene, longest_samples, passes),
         skips: looks_ahead && !all_interesting(scene),

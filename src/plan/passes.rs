@@ -75,7 +75,7 @@ fn share<T: ?Sized + Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>
 pub fn steps(scene: &Scene, needs: Needs, passes: u32, form: Option<Form>) -> Vec<Step> {
     let method = &scene.settings.method;
     let mut steps = Steps::with_room(passes, method.name, form);
-    if method.name == MethodName::RcBlock && needs.skips {
+    if method.name.skips_blocks() && needs.skips {
         steps.push(build::cell_range(&Grid::new(&scene.field, BLOCK as u32)));
     }
     if let Some(lookup) = Lookup::of(scene).filter(|_| needs.skips) {

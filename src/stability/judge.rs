@@ -103,14 +103,14 @@ pub fn judge(case: &Case, methods: &[MethodName], integrator: &mut dyn Integrato
             (_, Ok(Err(missing))) => Outcome { verdict: Verdict::Missing, remark: Some(missing), ..blank.clone() },
             (expect, Ok(Ok(rendered))) => {
                 let Ok(scene) = &scene else { continue };
-                let ends = method != MethodName::Rc;
+                let ends = method.ends_rays();
                 let rule = match &mut rules[usize::from(ends)] {
                     Some(rule) => rule,
-                    none => none.insert(rule(case, expect, scene, ends, integrator.sub_pixel_bits())?),
+                    none => none.insert(rule(case, expect, scene, method, integrator.sub_pixel_bits())?),
                 };
                 let mut outcome = compared(case, &rendered, rule, blank.clone());
                 // In f64 it is the same to rounding only.
-                if ends && method != MethodName::Cpu && outcome.verdict == Verdict::Right {
+                if method.under_the_law() && outcome.verdict == Verdict::Right {
                     let (first, pixels) = law.get_or_insert_with(|| (method, rendered.pixels.clone()));
                     let bits = |pixels: &[[f64; 4]]| pixels.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
                     if bits(pixels) != bits(&rendered.pixels) {
@@ -162,8 +162,8 @@ fn compared(case: &Case, rendered: &Rendered, rule: &Rule, blank: Outcome) -> Ou
 }
 
 /// What a method that ends rays early, or one that does not, has to give.
-fn rule(case: &Case, expect: &Expect, scene: &Scene, ends: bool, sub_pixel_bits: u32) -> Result<Rule> {
-    let twin = twin(scene, ends, sub_pixel_bits)?;
+fn rule(case: &Case, expect: &Expect, scene: &Scene, method: MethodName, sub_pixel_bits: u32) -> Result<Rule> {
+    let twin = twin(scene, method, sub_pixel_bits)?;
     let [width, height] = scene.settings.image.size;
     let each = |value: &dyn Fn([u32; 2]) -> [f64; 4]| -> Vec<[f64; 4]> {
         (0..height).flat_map(|row| (0..width).map(move |column| [column, row])).map(value).collect()
@@ -184,16 +184,16 @@ fn rule(case: &Case, expect: &Expect, scene: &Scene, ends: bool, sub_pixel_bits:
             let mut other = scene.clone();
             let field = Field::of(volume.clone(), &case.settings.volume.normalisation())?;
             other.field = std::sync::Arc::new(field);
-            self::twin(&other, ends, sub_pixel_bits)?.pixels
+            self::twin(&other, method, sub_pixel_bits)?.pixels
         }
     };
     Ok(Rule { pixels, undecided: twin.undecided })
 }
 
 /// The same samples in f64.
-fn twin(scene: &Scene, ends: bool, sub_pixel_bits: u32) -> Result<CpuFrame> {
+fn twin(scene: &Scene, method: MethodName, sub_pixel_bits: u32) -> Result<CpuFrame> {
     let mut scene = scene.clone();
-    scene.settings.method.name = if ends { MethodName::RcErt } else { MethodName::Rc };
+    scene.settings.method.name = method.without_skipping();
     let plan = plan::plan(&scene, papers_form(scene.settings.method.name))?;
     Ok(cpu::run(&scene, &plan, &Structures::default(), sub_pixel_bits))
 }

@@ -76,7 +76,7 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
          the jump where it only touches it",
     );
     say(
-        method != MethodName::Rc && method != MethodName::Cpu && sampling.termination < 1.0 && opaque,
+        method.ends_rays() && sampling.termination < 1.0 && opaque,
         &format!("rays end at an opacity of {}: what lies behind is missing, whatever the step", sampling.termination),
     );
     say(

@@ -57,7 +57,7 @@ impl Integrator for OnDevice<'_> {
 
     fn render(&mut self, scene: &Scene) -> Result<std::result::Result<Rendered, String>> {
         let method = scene.settings.method.name;
-        if method == MethodName::Cpu {
+        if !method.on_device() {
             return self.on_cpu(scene).map(Ok);
         }
         let form = plan::form(scene, self.checked.check.automatic(method))?;
