@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod compare;
 mod info;
 mod open;
 mod options;
@@ -40,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   depthleap probe -o out                                 what this driver culls before shading
   depthleap accuracy builtin:gaussian:64 -o out          error against run time
   depthleap stability -o out                             stiff and extreme cases
+  depthleap compare before after                         what differs between two results
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -55,6 +57,7 @@ Output:
 
 Exit codes:
   0  done
+  1  done, and `compare` found counts that differ
   2  an option, or a combination of options, that makes no sense
   3  a file, or a value in it, that is wrong
   4  a device, or a feature of it, that is missing
@@ -73,6 +76,7 @@ enum Command {
     Probe(Box<probe::Probe>),
     Accuracy(Box<accuracy::Accuracy>),
     Stability(Box<stability::Stability>),
+    Compare(compare::Compare),
     Plan(Box<plan::Plan>),
     Info(info::Info),
 }
@@ -91,6 +95,7 @@ pub fn main() -> ExitCode {
         }
     };
     let result = match cli.command {
+        Command::Compare(command) => return command.run().unwrap_or_else(|error| finish(Err(error))),
         Command::Render(command) => command.run(),
         Command::Bench(command) => command.run(),
         Command::Reproduce(command) => command.run(),

@@ -12,7 +12,8 @@
 //! 5. Lists in one field: `fragments_main_per_pass`, `fragments_intermediate_per_pass`,
 //!    `invocations_main_per_pass`, `invocations_intermediate_per_pass`, `gpu_main_ms_per_pass`,
 //!    `gpu_intermediate_ms_per_pass` (numbers with a space between), `memory` (`NAME=BYTES`), `self_check`
-//!    (`FORM=VERDICT`), `left_out` (`WHAT: WHY`), `plan`, `notes` (with `; ` between).
+//!    (`FORM=VERDICT`), `left_out` (`WHAT: WHY`), `plan`, `notes`, `warnings` (with `; ` between). How the volume was kept:
+//!    `texture`, `texture_x_error`, `texture_pixel_error` (`inf` where there is no bound).
 //! 6. Times of the groups of passes, `gpu_GROUP_ms` and so on as in 2, one set for each group that a run of the
 //!    file has.
 //! 7. The settings, `settings.SECTION.KEY`, one for each key that a run of the file has; arrays as JSON.
@@ -132,6 +133,11 @@ fn fixed_fields(results: &Results, run: &Run) -> Row {
     put("left_out", join(run.left_out.iter().map(|l| format!("{}: {}", l.what, l.why)), "; "));
     put("plan", join(&run.plan, "; "));
     put("notes", join(&run.notes, "; "));
+    put("warnings", join(&run.warnings, "; "));
+    let texture = run.texture.as_ref();
+    put("texture", or_empty(texture.map(|texture| &texture.format)));
+    put("texture_x_error", or_empty(texture.map(|texture| texture.x_error)));
+    put("texture_pixel_error", or_empty(texture.map(|texture| texture.pixel_error)));
     row
 }
 

@@ -169,7 +169,10 @@ fn open(path: &Path) -> Result<(File, u64)> {
 }
 
 /// The text of a regular file.
-fn text(path: &Path) -> Result<String> {
+///
+/// # Errors
+/// When it cannot be read or is not UTF-8.
+pub fn text(path: &Path) -> Result<String> {
     let (mut file, _) = open(path)?;
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|e| unreadable(path, &e))?;

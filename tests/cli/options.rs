@@ -74,7 +74,7 @@ fn help_tells_exit_codes_and_examples() {
     for code in ["  0  ", "  2  ", "  3  ", "  4  ", "  5  ", "  6  ", "NO_COLOR"] {
         assert!(help.contains(code), "{code}: {help}");
     }
-    for command in ["render", "bench", "plan", "info"] {
+    for command in ["render", "bench", "compare", "plan", "info"] {
         let help = place.done(&format!("{command} --help")).text();
         assert!(help.contains("Examples:\n  depthleap ") && help.lines().all(|l| l.chars().count() <= 100), "{help}");
     }

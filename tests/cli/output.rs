@@ -144,3 +144,22 @@ fn a_run_is_repeated_from_its_json_in_any_folder() {
     place.done("render --from out/run.json --viewport 5x4 -o fourth.npy");
     assert_eq!(npy(&place.read("fourth.npy")).0, [5, 4]);
 }
+
+#[test]
+fn two_results_are_compared_with_an_exit_code() {
+    let place = driverless();
+    let render = |step: &str, json: &str| place.done(&format!("{SMALL} --step {step} -o a.npy --json {json}"));
+    render("1", "a.json");
+    render("1", "b.json");
+    render("0.5", "c.json");
+    let same = place.done("compare a.json b.json --json same.json").text();
+    assert!(same.ends_with("All counts are the same.\n"), "{same}");
+    assert_eq!(place.json("same.json")["only_in_a"], serde_json::json!([]));
+    let other = place.run("compare a.json c.json");
+    assert_eq!(other.code, Some(1), "{}", other.err);
+    assert!(other.text().contains("setting sampling.step: 1.0 -> 0.5"), "{}", other.text());
+    assert!(other.text().ends_with("Counts differ.\n"), "{}", other.text());
+    place.file("d.json", "{}");
+    place.refused("compare a.json d.json", 3, &["d.json", "is not a results file", "render --json"]);
+    place.refused("compare a.json gone.json", 3, &["gone.json", "cannot be read"]);
+}

@@ -1,6 +1,7 @@
 //! From counts, times and pictures to tables, JSON, CSV and the report.
 
 mod accuracies;
+mod compares;
 mod orbits;
 mod pages;
 mod pictures;

@@ -9,6 +9,7 @@ use depthleap::measure::number::milliseconds;
 use depthleap::measure::number::percent;
 use depthleap::measure::number::thousands;
 use depthleap::measure::record::ErrorRecord;
+use depthleap::measure::record::TextureRecord;
 
 use crate::runs::{results, run};
 
@@ -140,7 +141,10 @@ mod rows_of_csv {
 
     #[test]
     fn one_a_run_under_documented_names() {
-        let text = csv(&results()).unwrap();
+        let mut results = results();
+        let kept = TextureRecord { format: "r16".into(), x_error: 0.001, pixel_error: 0.5, measured: true };
+        (results.runs[0].texture, results.runs[0].warnings) = (Some(kept), vec!["one".into(), "two".into()]);
+        let text = csv(&results).unwrap();
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
         let heading = reader.headers().unwrap().clone();
         let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
@@ -158,6 +162,8 @@ mod rows_of_csv {
         assert_eq!(at(1, "settings.sampling.step"), "1.0");
         assert_eq!(at(1, "settings.image.size"), "[500,500]");
         assert_eq!(at(1, "commit"), "0123abc");
+        assert_eq!((at(0, "texture"), at(0, "texture_x_error")), ("r16".to_owned(), "0.001".to_owned()));
+        assert_eq!((at(0, "warnings"), at(1, "warnings")), ("one; two".to_owned(), String::new()));
         for name in ["gpu_total_ms", "gpu_main_ms", "error_max", "cull", "invocations_main"] {
             assert_eq!(at(2, name), "", "{name}");
         }

@@ -1,0 +1,224 @@
+//! Two results side by side: other devices, drivers or commits. Counts are compared exactly, times with their spread.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::number::{milliseconds, thousands};
+use super::record::{Counts, Results, Run};
+use super::timing::Timing;
+
+/// The version of the JSON that `compare --json` writes.
+pub const FORMAT: u32 = 1;
+
+/// What differs between two results.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    pub version: u32,
+    /// Where each comes from: program, commit, devices, date.
+    pub a: String,
+    pub b: String,
+    /// Runs that only the first, or only the second has.
+    pub only_in_a: Vec<String>,
+    pub only_in_b: Vec<String>,
+    pub runs: Vec<RunComparison>,
+}
+
+/// One run of both.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunComparison {
+    pub run: String,
+    /// Settings whose values differ; files count by their names, since folders differ between machines.
+    pub settings: Vec<Difference>,
+    /// Counts that differ, and how many main passes there are.
+    pub counts: Vec<Difference>,
+    pub times: Vec<TimeDifference>,
+}
+
+/// Two values of one thing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    pub what: String,
+    pub a: Value,
+    pub b: Value,
+}
+
+/// Two times of one thing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeDifference {
+    pub what: String,
+    /// Medians, milliseconds.
+    pub a: f64,
+    pub b: f64,
+    /// Whether all samples of the one lie beyond all of the other.
+    pub apart: bool,
+}
+
+impl Comparison {
+    /// Whether every run is in both, with the same counts.
+    pub fn same_counts(&self) -> bool {
+        self.only_in_a.is_empty() && self.only_in_b.is_empty() && self.runs.iter().all(|run| run.counts.is_empty())
+    }
+}
+
+/// Compares run by run: those of one scene, view, method and form are of each other, several of these in their order.
+pub fn compare(a: &Results, b: &Results) -> Comparison {
+    let mut others: Vec<Option<&Run>> = b.runs.iter().map(Some).collect();
+    let (mut runs, mut only_in_a) = (Vec::new(), Vec::new());
+    for run in &a.runs {
+        let name = name(run);
+        let partner = others.iter_mut().find(|other| other.is_some_and(|other| self::name(other) == name));
+        match partner.and_then(Option::take) {
+            Some(other) => runs.push(compare_run(name, run, other)),
+            None => only_in_a.push(name),
+        }
+    }
+    let only_in_b = others.into_iter().flatten().map(name).collect();
+    Comparison { version: FORMAT, a: source(a), b: source(b), only_in_a, only_in_b, runs }
+}
+
+/// `fuel, ramp: nn-omni (ztest + copy), eye ...`
+fn name(run: &Run) -> String {
+    let form = run.form().map_or_else(String::new, |form| format!(" ({form})"));
+    format!("{}: {}{form}, {}", run.scene, run.method, run.view)
+}
+
+fn source(results: &Results) -> String {
+    let mut devices: Vec<String> = Vec::new();
+    for run in &results.runs {
+        let device = format!("{}, {}", run.device, run.driver);
+        if !devices.contains(&device) {
+            devices.push(device);
+        }
+    }
+    let made = &results.provenance;
+    format!("{}, {} ({})", made.made_by(), made.date, devices.join("; "))
+}
+
+fn compare_run(name: String, a: &Run, b: &Run) -> RunComparison {
+    let mut counts = Vec::new();
+    let mut count = |what: &str, a: Value, b: Value| {
+        if a != b {
+            counts.push(Difference { what: what.to_owned(), a, b });
+        }
+    };
+    count("passes", a.passes.into(), b.passes.into());
+    for (what, get) in COUNTS {
+        count(what, get(&a.fragments).into(), get(&b.fragments).into());
+        // Some devices have no count of invocations; what one lacks does not differ.
+        if let (Some(a), Some(b)) = (&a.invocations, &b.invocations) {
+            count(&what.replace("fragments", "invocations"), get(a).into(), get(b).into());
+        }
+    }
+    RunComparison { run: name, settings: settings(a, b), counts, times: times(a, b) }
+}
+
+/// A count by its name.
+type Count = (&'static str, fn(&Counts) -> Vec<u64>);
+
+const COUNTS: [Count; 2] = [
+    ("main fragments, pass by pass", |counts| counts.main_per_pass.clone()),
+    ("intermediate fragments, pass by pass", |counts| counts.intermediate_per_pass.clone()),
+];
+
+fn times(a: &Run, b: &Run) -> Vec<TimeDifference> {
+    let mut times = Vec::new();
+    let mut time = |what: String, a: Option<&Timing>, b: Option<&Timing>| {
+        let (Some(a), Some(b)) = (a, b) else { return };
+        let ([a_least, a_most], [b_least, b_most]) = (a.range(), b.range());
+        let apart = a_most < b_least || b_most < a_least;
+        times.push(TimeDifference { what, a: a.value, b: b.value, apart });
+    };
+    time("frame_ms".to_owned(), a.host.frame.as_ref(), b.host.frame.as_ref());
+    time("cpu_ms".to_owned(), a.host.cpu.as_ref(), b.host.cpu.as_ref());
+    time("build_ms".to_owned(), a.host.build.as_ref(), b.host.build.as_ref());
+    for (group, timing) in a.gpu_ms.iter().flat_map(|times| &times.0) {
+        time(format!("gpu_ms.{group}"), Some(timing), b.gpu_ms.as_ref().and_then(|times| times.get(group)));
+    }
+    times
+}
+
+fn settings(a: &Run, b: &Run) -> Vec<Difference> {
+    let flat = |run: &Run| {
+        let mut flat = BTreeMap::new();
+        let value = serde_json::to_value(&run.settings).unwrap_or_default();
+        flatten("", &value, &mut flat);
+        flat
+    };
+    let (a, b) = (flat(a), flat(b));
+    let keys: std::collections::BTreeSet<&String> = a.keys().chain(b.keys()).collect();
+    let of = |settings: &BTreeMap<String, Value>, key: &String| settings.get(key).cloned().unwrap_or_default();
+    keys.into_iter()
+        .map(|key| Difference { what: key.clone(), a: of(&a, key), b: of(&b, key) })
+        .filter(|difference| file_name(&difference.a) != file_name(&difference.b))
+        .collect()
+}
+
+/// The entries of an object by their keys with points between: `sampling.step`.
+fn flatten(prefix: &str, value: &Value, into: &mut BTreeMap<String, Value>) {
+    match value {
+        Value::Object(entries) => {
+            for (key, value) in entries {
+                let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
+                flatten(&name, value, into);
+            }
+        }
+        other => {
+            into.insert(prefix.to_owned(), other.clone());
+        }
+    }
+}
+
+/// Text without the folders in front of it.
+fn file_name(value: &Value) -> Value {
+    match value {
+        Value::String(text) => text.rsplit(['/', '\\']).next().unwrap_or(text).into(),
+        other => other.clone(),
+    }
+}
+
+/// The comparison for a terminal.
+pub fn text(found: &Comparison) -> String {
+    let mut out = format!("a: {}\nb: {}\n", found.a, found.b);
+    for (which, runs) in [("a", &found.only_in_a), ("b", &found.only_in_b)] {
+        for run in runs {
+            let _ = writeln!(out, "\nonly in {which}: {run}");
+        }
+    }
+    for run in &found.runs {
+        let _ = writeln!(out, "\n{}", run.run);
+        for Difference { what, a, b } in &run.settings {
+            let _ = writeln!(out, "  setting {what}: {a} -> {b}");
+        }
+        for difference in &run.counts {
+            let _ = writeln!(out, "  {}", count_text(difference));
+        }
+        if run.counts.is_empty() {
+            let _ = writeln!(out, "  counts: the same");
+        }
+        for time in &run.times {
+            let ratio = if time.a > 0.0 { format!("x {:.3}", time.b / time.a) } else { "no ratio".to_owned() };
+            let spread = if time.apart { "" } else { ", within the spread" };
+            let _ = writeln!(
+                out,
+                "  {}: {} -> {} ms, {ratio}{spread}",
+                time.what,
+                milliseconds(time.a),
+                milliseconds(time.b)
+            );
+        }
+    }
+    let verdict = if found.same_counts() { "All counts are the same." } else { "Counts differ." };
+    out + "\n" + verdict + "\n"
+}
+
+/// A list of counts by its sum and the first pass that differs.
+fn count_text(Difference { what, a, b }: &Difference) -> String {
+    let list = |value: &Value| value.as_array().map(|list| list.iter().filter_map(Value::as_u64).collect::<Vec<u64>>());
+    let (Some(ours), Some(theirs)) = (list(a), list(b)) else { return format!("{what}: {a} -> {b}") };
+    let sum = |list: &[u64]| thousands(list.iter().sum());
+    let first = ours.iter().zip(&theirs).position(|(a, b)| a != b).unwrap_or(ours.len().min(theirs.len()));
+    format!("{what}: {} -> {} in all, from pass {first} on", sum(&ours), sum(&theirs))
+}
