@@ -8,7 +8,7 @@
 //! 5. [`saving`]: what became of the fragments saved; [`cost`]: how that depends on what a sample costs.
 //! 6. [`orbit`]: frames of a camera that goes around; [`reproduce`]: the papers' tables, theirs beside ours.
 //! 7. [`mod@probe`]: what a driver culls. [`accuracy`]: error against run time.
-//! 8. [`compare`]: two results, of other devices or commits.
+//! 8. [`mod@compare`]: two results, of other devices or commits.
 //! 9. [`table`], [`csv`], [`plot`], [`report`]: the same rows for a terminal, a spreadsheet, the eye and a reader.
 
 pub mod accuracy;
