@@ -35,7 +35,7 @@ fn the_default_refuses_and_names_the_choices() {
         assert!(parts.iter().all(|part| message.contains(part)), "{lines}: {message}");
     }
     let two = chosen(&[2, 3, 4, 5], IN_FRONT[1], &Choice::default()).unwrap_err().to_string();
-    assert!(two.contains("choose 0 to 1, magnitude"), "{two}");
+    assert!(two.contains("choose 0 to 1, or magnitude"), "{two}");
 }
 
 #[test]
