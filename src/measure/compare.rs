@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::number::{milliseconds, thousands};
-use super::record::{Counts, Results, Run};
+use super::record::{Counts, OrbitFrame, Results, Run};
 use super::timing::Timing;
 
 /// The version of the JSON that `compare --json` writes.
@@ -112,6 +112,12 @@ fn compare_run(name: String, a: &Run, b: &Run) -> RunComparison {
             count(&what.replace("fragments", "invocations"), get(a).into(), get(b).into());
         }
     }
+    let frames = |run: &Run, get: fn(&OrbitFrame) -> u64| -> Value {
+        run.orbit.iter().flatten().map(get).collect::<Vec<u64>>().into()
+    };
+    for (what, get) in FRAME_COUNTS {
+        count(what, frames(a, get), frames(b, get));
+    }
     RunComparison { run: name, settings: settings(a, b), counts, times: times(a, b) }
 }
 
@@ -121,6 +127,14 @@ type Count = (&'static str, fn(&Counts) -> Vec<u64>);
 const COUNTS: [Count; 2] = [
     ("main fragments, pass by pass", |counts| counts.main_per_pass.clone()),
     ("intermediate fragments, pass by pass", |counts| counts.intermediate_per_pass.clone()),
+];
+
+/// A count of a frame of an orbit by its name.
+type FrameCount = (&'static str, fn(&OrbitFrame) -> u64);
+
+const FRAME_COUNTS: [FrameCount; 2] = [
+    ("main fragments of the orbit, frame by frame", |frame| frame.main),
+    ("intermediate fragments of the orbit, frame by frame", |frame| frame.intermediate),
 ];
 
 fn times(a: &Run, b: &Run) -> Vec<TimeDifference> {
@@ -210,15 +224,19 @@ pub fn text(found: &Comparison) -> String {
             );
         }
     }
-    let verdict = if found.same_counts() { "All counts are the same." } else { "Counts differ." };
+    let verdict = match (found.same_counts(), found.runs.iter().all(|run| run.counts.is_empty())) {
+        (true, _) => "All counts are the same.",
+        (false, true) => "Counts of runs that both have are the same; one lacks runs of the other.",
+        (false, false) => "Counts differ.",
+    };
     out + "\n" + verdict + "\n"
 }
 
-/// A list of counts by its sum and the first pass that differs.
+/// A list of counts by its sum and the place of the first that differs.
 fn count_text(Difference { what, a, b }: &Difference) -> String {
     let list = |value: &Value| value.as_array().map(|list| list.iter().filter_map(Value::as_u64).collect::<Vec<u64>>());
     let (Some(ours), Some(theirs)) = (list(a), list(b)) else { return format!("{what}: {a} -> {b}") };
     let sum = |list: &[u64]| thousands(list.iter().sum());
     let first = ours.iter().zip(&theirs).position(|(a, b)| a != b).unwrap_or(ours.len().min(theirs.len()));
-    format!("{what}: {} -> {} in all, from pass {first} on", sum(&ours), sum(&theirs))
+    format!("{what}: {} -> {} in all, the first difference at {first}", sum(&ours), sum(&theirs))
 }

@@ -34,6 +34,7 @@ pub mod stability;
 pub mod statistics;
 pub mod table;
 pub mod timing;
+mod warnings;
 pub mod write;
 
 pub use error::{PictureError, compare};

@@ -11,6 +11,7 @@ use super::picture::Picture;
 use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
+use super::warnings::warnings;
 use crate::error::{Error, Result};
 use crate::frame::{
     self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, distances,
@@ -248,7 +249,7 @@ impl<'a> Runner<'a> {
                 .collect(),
             plan: entry.plan.lines(),
             notes: self.notes(&entry),
-            warnings: warnings(&entry),
+            warnings: warnings(&entry.scene, &entry.plan, &entry.picture),
             texture: TextureRecord::of(&entry.plan),
             orbit: None,
             saved: None,
@@ -296,31 +297,6 @@ impl<'a> Runner<'a> {
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
     }
-}
-
-/// What may make a run's picture mislead.
-fn warnings(entry: &Entry) -> Vec<String> {
-    let (scene, settings) = (&entry.scene, &entry.scene.settings);
-    let mut warnings = plan::warnings(scene, &entry.plan);
-    let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
-    if !known_empty && entry.picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
-        warnings.push(
-            "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step"
-                .to_owned(),
-        );
-    }
-    let background = settings.image.background.iter().any(|c| *c != 0.0);
-    if background && entry.plan.steps.iter().any(|step| step.accesses.iter().any(|a| a.resource == Resource::Stored)) {
-        let left = 100.0 * (1.0 - settings.sampling.termination);
-        if left > 0.0 {
-            warnings.push(format!(
-                "rays end at an opacity above {}, so that up to {left:.3} % of the background stays in what is opaque; \
-                 --termination 1 ends none early",
-                settings.sampling.termination
-            ));
-        }
-    }
-    warnings
 }
 
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,

@@ -3,6 +3,7 @@
 use depthleap::measure::Results;
 use depthleap::measure::Timing;
 use depthleap::measure::compare::{compare, text};
+use depthleap::measure::record::OrbitFrame;
 
 use crate::runs::results;
 
@@ -30,7 +31,29 @@ fn one_fragment_more_in_one_pass_is_found() {
     let differing: Vec<usize> = (0..found.runs.len()).filter(|i| !found.runs[*i].counts.is_empty()).collect();
     assert_eq!(differing, [1]);
     let text = text(&found);
-    assert!(text.contains(&format!("from pass {last} on")) && text.ends_with("Counts differ.\n"), "{text}");
+    assert!(text.contains(&format!("the first difference at {last}")) && text.ends_with("Counts differ.\n"), "{text}");
+}
+
+#[test]
+fn one_fragment_more_in_one_frame_of_an_orbit_is_found() {
+    let with = |main: u64| {
+        let frame = |main| OrbitFrame {
+            frame: 0,
+            turned: 0.0,
+            structure: None,
+            age: None,
+            main,
+            intermediate: 7,
+            frame_ms: 1.0,
+            cpu_ms: 1.0,
+            build_ms: 0.0,
+        };
+        changed(|results| results.runs[1].orbit = Some(vec![frame(5), frame(main)]))
+    };
+    assert!(compare(&with(9), &with(9)).same_counts());
+    let found = compare(&with(9), &with(10));
+    assert_eq!(found.runs[1].counts[0].what, "main fragments of the orbit, frame by frame");
+    assert!(text(&found).contains("14 -> 15 in all, the first difference at 1"), "{}", text(&found));
 }
 
 #[test]
@@ -40,6 +63,7 @@ fn a_run_that_one_lacks_is_named() {
     assert!(!found.same_counts() && found.only_in_a.len() == 1 && found.only_in_b.is_empty());
     assert!(found.only_in_a[0].contains(&results().runs[0].method), "{:?}", found.only_in_a);
     assert_eq!(compare(&fewer, &results()).only_in_b, found.only_in_a);
+    assert!(text(&found).ends_with("one lacks runs of the other.\n"), "{}", text(&found));
 }
 
 #[test]

@@ -1,0 +1,35 @@
+//! What may make a run's picture mislead: what its plan says, and what the picture itself shows.
+
+use super::picture::Picture;
+use crate::pass::resource::Resource;
+use crate::plan::{self, Plan};
+use crate::scene::Scene;
+
+/// The warnings of a run, a sentence each.
+pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
+    let mut warnings = plan::warnings(scene, plan);
+    let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
+    if !known_empty && picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
+        warnings.push(
+            "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step"
+                .to_owned(),
+        );
+    }
+    warnings.extend(background_left(scene, plan));
+    warnings
+}
+
+/// How much of the background stays where rays end early.
+fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
+    let settings = &scene.settings;
+    let termination = settings.sampling.termination;
+    let ends = plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == Resource::Stored));
+    let seen = settings.image.background.iter().any(|channel| *channel != 0.0);
+    let left = 100.0 * (1.0 - termination);
+    (ends && seen && left > 0.0).then(|| {
+        format!(
+            "rays end at an opacity above {termination}, so that up to {left:.3} % of the background stays in what is opaque; \
+             --termination 1 ends none early"
+        )
+    })
+}
