@@ -7,7 +7,8 @@
 use std::path::Path;
 
 use depthleap::frame::{Resident, Structures};
-use depthleap::plan::{papers_form, plan};
+use depthleap::method;
+use depthleap::plan::plan;
 use depthleap::scene::Settings;
 use depthleap::scene::settings::MethodName;
 use depthleap::vulkan::{Device, Instance, pick};
@@ -15,7 +16,7 @@ use depthleap::{Error, Result, read};
 
 const RUNS: usize = 5;
 const METHODS: [MethodName; 4] =
-    [MethodName::NnOmni, MethodName::NnDirectional, MethodName::NnOptimal, MethodName::NnCone];
+    [method::NN_OMNI.name(), method::NN_DIRECTIONAL.name(), method::NN_OPTIMAL.name(), method::NN_CONE.name()];
 
 fn main() -> Result<()> {
     let cells: Vec<u32> = match std::env::args().find(|a| a.starts_with(|c: char| c.is_ascii_digit())) {
@@ -34,7 +35,7 @@ fn main() -> Result<()> {
             let mut omni = None;
             for method in METHODS {
                 scene.settings.method.name = method;
-                let plan = plan(&scene, papers_form(method))?;
+                let plan = plan(&scene, method::papers_form(method))?;
                 let lookup =
                     plan.distance.ok_or_else(|| Error::usage(method.name(), "reads no distances", "pick another"))?;
                 let mut times: [Vec<f64>; 3] = Default::default();

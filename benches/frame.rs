@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use depthleap::frame::self_check;
 use depthleap::measure::Run;
 use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::method;
 use depthleap::read;
 use depthleap::scene::Camera;
 use depthleap::scene::settings::{MethodName, MethodSettings, Settings};
@@ -16,7 +17,8 @@ use depthleap::vulkan::{Device, Instance, pick};
 
 /// Azimuth, elevation (degrees) and distance of the rotated view.
 const VIEW: [f64; 3] = [30.0, 20.0, 1.91];
-const METHODS: [MethodName; 4] = [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni];
+const METHODS: [MethodName; 4] =
+    [method::RC.name(), method::RC_ERT.name(), method::RC_BLOCK.name(), method::NN_OMNI.name()];
 const EFFORT: Effort = Effort { warmups: 2, repeats: 9, reference: false };
 
 fn main() -> depthleap::Result<()> {

@@ -4,12 +4,13 @@
 use depthleap::frame::self_check;
 use depthleap::measure::Run;
 use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::method;
 use depthleap::read;
 use depthleap::scene::settings::{MethodName, MethodSettings, Settings};
 use depthleap::vulkan::{Device, Instance, pick};
 
 const EFFORT: Effort = Effort { warmups: 2, repeats: 15, reference: false };
-const METHODS: [MethodName; 3] = [MethodName::RcErt, MethodName::NnOmni, MethodName::NnOmniFused];
+const METHODS: [MethodName; 3] = [method::RC_ERT.name(), method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()];
 
 type Change = fn(&mut Settings);
 

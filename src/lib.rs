@@ -4,7 +4,8 @@
 //!
 //! 1. [`scene`]: what is to be seen: volume, transfer function, camera, sampling, method. Knows no Vulkan.
 //! 2. [`plan`]: scene to a flat list of steps anyone can print, with what was left out and why.
-//! 3. [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`mod@reference`].
+//! 3. [`method`] and [`feature`]: what each renderer is and what a frame may have, as rows; [`pass`]: each pass said once: its
+//!    GLSL, what it reads and draws into, its f64 twin in [`mod@reference`]; [`part`]: the types of all of these.
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
 //!
@@ -12,14 +13,17 @@
 //! extreme scenes against the pictures they must give.
 //!
 //! Imports point one way: `error, math, provenance <- scene <- read, structure <- reference, shared`;
-//! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- stability <- measure <- cli`.
+//! `error <- glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- stability <- measure <- cli`.
 
 pub mod cli;
 pub mod error;
+pub mod feature;
 pub mod frame;
 pub mod glsl;
 pub mod math;
 pub mod measure;
+pub mod method;
+pub mod part;
 pub mod pass;
 pub mod plan;
 pub mod probe;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &[&str]); 17] = [
+const MAY_IMPORT: [(&str, &[&str]); 20] = [
     ("error", &[]),
     ("math", &[]),
     ("provenance", &[]),
@@ -17,13 +17,50 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ("reference", &["error", "math", "scene", "structure"]),
     ("shared", &["error", "math", "scene", "structure", "reference"]),
     ("probe", &["error", "provenance", "glsl", "vulkan"]),
-    ("pass", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared"]),
-    ("plan", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "pass"]),
+    ("part", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared"]),
+    ("feature", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "part"]),
+    ("pass", &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "part", "feature"]),
+    (
+        "method",
+        &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "part", "feature", "pass"],
+    ),
+    (
+        "plan",
+        &[
+            "error",
+            "math",
+            "scene",
+            "structure",
+            "glsl",
+            "vulkan",
+            "reference",
+            "shared",
+            "part",
+            "feature",
+            "pass",
+            "method",
+        ],
+    ),
     (
         "frame",
-        &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "probe", "pass", "plan"],
+        &[
+            "error",
+            "math",
+            "scene",
+            "structure",
+            "glsl",
+            "vulkan",
+            "reference",
+            "shared",
+            "probe",
+            "part",
+            "feature",
+            "pass",
+            "method",
+            "plan",
+        ],
     ),
-    ("stability", &["error", "math", "scene", "read", "structure", "reference", "pass", "plan", "frame"]),
+    ("stability", &["error", "math", "scene", "read", "structure", "reference", "part", "method", "plan", "frame"]),
     (
         "measure",
         &[
@@ -38,7 +75,9 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
             "reference",
             "shared",
             "probe",
+            "part",
             "pass",
+            "method",
             "plan",
             "frame",
             "stability",
@@ -58,7 +97,9 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
             "reference",
             "shared",
             "probe",
+            "part",
             "pass",
+            "method",
             "plan",
             "frame",
             "stability",

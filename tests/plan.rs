@@ -7,12 +7,13 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use cases::{cases, scene, settings};
-use depthleap::pass::cull::Form;
-use depthleap::pass::resource::{Resource, Usage};
-use depthleap::pass::{Group, Step, Work};
-use depthleap::plan::{Plan, form, papers_form, plan};
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::part::resource::{Resource, Usage};
+use depthleap::part::{Group, Step, Work};
+use depthleap::plan::{Plan, form, plan};
 use depthleap::scene::Settings;
-use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, MethodName, Offset};
+use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, Offset};
 use glam::DVec3;
 
 const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --test plan";
@@ -132,7 +133,7 @@ fn names_of_steps_are_unique_and_numbers_those_of_their_pass() {
 
 fn planned(settings: &Settings) -> Plan {
     let scene = scene(settings);
-    plan(&scene, form(&scene, papers_form(settings.method.name)).unwrap()).unwrap()
+    plan(&scene, form(&scene, method::papers_form(settings.method.name)).unwrap()).unwrap()
 }
 
 /// Scenes that need more, each beside the same with that need gone.
@@ -143,16 +144,20 @@ fn needs() -> Vec<(&'static str, Settings, Settings)> {
         alter(&mut more);
         (name, more, less)
     };
-    use MethodName::{NnOmni, Rc, RcBlock, RcErt};
     let mut pairs = vec![
-        pair("opacity correction", NnOmni, |s| s.sampling.step = 0.5),
-        pair("length of the last sample", NnOmni, |s| s.sampling.last = Last::Partial),
-        pair("interpolation in the shader", Rc, |s| s.sampling.filter = Filter::Exact),
-        pair("test before the first pass", RcBlock, |s| s.method.block_first = true),
-        pair("more passes", RcErt, |s| s.sampling.samples_per_pass = 2),
-        pair("marks on their way", NnOmni, |s| s.method.mark = Mark::Copy),
+        pair("opacity correction", method::NN_OMNI.name(), |s| s.sampling.step = 0.5),
+        pair("length of the last sample", method::NN_OMNI.name(), |s| s.sampling.last = Last::Partial),
+        pair("interpolation in the shader", method::RC.name(), |s| s.sampling.filter = Filter::Exact),
+        pair("test before the first pass", method::RC_BLOCK.name(), |s| s.method.block_first = true),
+        pair("more passes", method::RC_ERT.name(), |s| s.sampling.samples_per_pass = 2),
+        pair("marks on their way", method::NN_OMNI.name(), |s| s.method.mark = Mark::Copy),
     ];
-    for (more, less) in [(RcErt, Rc), (RcBlock, Rc), (RcBlock, RcErt), (NnOmni, Rc)] {
+    for (more, less) in [
+        (method::RC_ERT.name(), method::RC.name()),
+        (method::RC_BLOCK.name(), method::RC.name()),
+        (method::RC_BLOCK.name(), method::RC_ERT.name()),
+        (method::NN_OMNI.name(), method::RC.name()),
+    ] {
         pairs.push((more.name(), settings(more), settings(less)));
     }
     pairs
@@ -194,7 +199,7 @@ fn shader_code_a_scene_does_not_need_is_left_out() {
         ("length of the last sample", "LAST_PARTIAL", |s| s.sampling.last = Last::Partial),
         ("interpolation in the shader", "FILTER", |s| s.sampling.filter = Filter::Exact),
     ] {
-        let plain = settings(MethodName::Rc);
+        let plain = settings(method::RC.name());
         let mut needy = plain.clone();
         alter(&mut needy);
         for (settings, needed) in [(plain, false), (needy, true)] {
@@ -204,7 +209,7 @@ fn shader_code_a_scene_does_not_need_is_left_out() {
         }
     }
     // The papers take opacities as they stand, whatever the step.
-    let mut papers = settings(MethodName::Rc);
+    let mut papers = settings(method::RC.name());
     (papers.sampling.step, papers.sampling.alpha) = (0.5, Alpha::Paper);
     assert_eq!(constant(&planned(&papers), "CORRECT_OPACITY"), 0);
 }
@@ -230,7 +235,7 @@ fn whatever_is_left_out_has_a_reason() {
 
 #[test]
 fn camera_that_looks_away_has_an_empty_plan() {
-    for method in MethodName::ALL {
+    for method in method::METHODS.map(|method| method.name()) {
         let mut settings = settings(method);
         settings.camera.target = [0.0, 0.0, 4.0];
         let plan = planned(&settings);
@@ -242,7 +247,7 @@ fn camera_that_looks_away_has_an_empty_plan() {
 
 #[test]
 fn passes_are_those_of_the_longest_ray_of_this_view() {
-    let mut cube = settings(MethodName::Rc);
+    let mut cube = settings(method::RC.name());
     cube.volume.builtin = Some("blocks:256".to_owned());
     let mut cube = scene(&cube);
     cube.settings.image.size = [500, 500];
@@ -268,7 +273,7 @@ fn passes_are_those_of_the_longest_ray_of_this_view() {
 #[test]
 fn forced_passes_are_as_many() {
     for passes in [1, 2, 3, 40] {
-        let mut settings = settings(MethodName::NnOmni);
+        let mut settings = settings(method::NN_OMNI.name());
         settings.sampling.passes = passes;
         let plan = planned(&settings);
         let main = plan.steps.iter().filter(|step| step.group == Group::Main).count();
@@ -281,7 +286,7 @@ fn forced_passes_are_as_many() {
 fn passes_that_only_other_views_need_are_left_out() {
     // Three passes of 8 samples here, and four for the diagonal of 16 voxels, 27.7; of 4, five here and seven.
     for (samples_per_pass, what) in [(8, "main pass 3"), (4, "main passes 5 to 6")] {
-        let mut settings = settings(MethodName::Rc);
+        let mut settings = settings(method::RC.name());
         settings.sampling.samples_per_pass = samples_per_pass;
         let left = planned(&settings).left_out.into_iter().find(|left| left.what.starts_with("main pass")).unwrap();
         assert_eq!((left.what.as_str(), left.why.as_str()), (what, "the longest ray of this view has 17 samples"));
@@ -290,7 +295,7 @@ fn passes_that_only_other_views_need_are_left_out() {
 
 #[test]
 fn too_many_passes_are_refused() {
-    let mut settings = settings(MethodName::Rc);
+    let mut settings = settings(method::RC.name());
     settings.sampling.samples_per_pass = 1;
     settings.sampling.step = 2e-4;
     let error = plan(&scene(&settings), None).unwrap_err().to_string();
@@ -300,7 +305,8 @@ fn too_many_passes_are_refused() {
 
 #[test]
 fn rays_left_are_counted_every_eight_passes() {
-    for method in [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused] {
+    for method in [method::RC_ERT.name(), method::RC_BLOCK.name(), method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()]
+    {
         let mut settings = settings(method);
         settings.sampling.passes = 26;
         let counted: Vec<u32> =
@@ -311,9 +317,14 @@ fn rays_left_are_counted_every_eight_passes() {
 
 #[test]
 fn fused_passes_mark_for_the_next_one_and_the_last_for_nobody() {
-    use MethodName::{NnConeFused, NnDirectionalFused, NnOmniFused, NnOptimalFused};
-    for method in [NnOmniFused, NnDirectionalFused, NnOptimalFused, NnConeFused] {
-        for (form, passes) in Form::all(method).into_iter().flat_map(|form| [1, 2, 17].map(|passes| (form, passes))) {
+    for method in [
+        method::NN_OMNI_FUSED.name(),
+        method::NN_DIRECTIONAL_FUSED.name(),
+        method::NN_OPTIMAL_FUSED.name(),
+        method::NN_CONE_FUSED.name(),
+    ] {
+        for (form, passes) in method::forms(method).into_iter().flat_map(|form| [1, 2, 17].map(|passes| (form, passes)))
+        {
             let mut settings = settings(method);
             settings.sampling.passes = passes;
             let plan = plan(&scene(&settings), Some(form)).unwrap();
@@ -342,10 +353,10 @@ fn fused_passes_mark_for_the_next_one_and_the_last_for_nobody() {
 
 #[test]
 fn form_that_does_not_apply_is_refused_by_those_that_do() {
-    let mut settings = settings(MethodName::NnOmni);
+    let mut settings = settings(method::NN_OMNI.name());
     for (cull, mark) in [(Cull::Ztest, Mark::Fragdepth), (Cull::Discard, Mark::FragdepthAny)] {
         (settings.method.cull, settings.method.mark) = (cull, mark);
-        let error = form(&scene(&settings), papers_form(MethodName::NnOmni)).unwrap_err().to_string();
+        let error = form(&scene(&settings), method::papers_form(method::NN_OMNI.name())).unwrap_err().to_string();
         let asked = Form { cull, mark };
         assert!(error.contains(&format!("--cull {} --mark {}", asked.cull_name(), asked.mark_name())), "{error}");
         assert!(error.contains("method nn-omni has no such form"), "{error}");
@@ -357,23 +368,23 @@ fn form_that_does_not_apply_is_refused_by_those_that_do() {
 
 #[test]
 fn what_a_scene_leaves_open_is_filled_in() {
-    use {Cull as C, Mark as M, MethodName as N};
+    use {Cull as C, Mark as M};
     let resolved = |method, cull, mark| {
         let mut settings = settings(method);
         (settings.method.cull, settings.method.mark) = (cull, mark);
-        form(&scene(&settings), papers_form(method)).unwrap().map(Form::name)
+        form(&scene(&settings), method::papers_form(method)).unwrap().map(Form::name)
     };
     for (method, cull, mark, expected) in [
-        (N::Rc, C::Bounds, M::Copy, None),
-        (N::RcErt, C::Auto, M::Auto, Some("ztest+fragdepth")),
-        (N::RcErt, C::Bounds, M::Auto, Some("bounds+fragdepth")),
-        (N::RcBlock, C::Auto, M::Copy, Some("ztest+copy")),
-        (N::NnOmni, C::Auto, M::Auto, Some("bounds+fragdepth")),
+        (method::RC.name(), C::Bounds, M::Copy, None),
+        (method::RC_ERT.name(), C::Auto, M::Auto, Some("ztest+fragdepth")),
+        (method::RC_ERT.name(), C::Bounds, M::Auto, Some("bounds+fragdepth")),
+        (method::RC_BLOCK.name(), C::Auto, M::Copy, Some("ztest+copy")),
+        (method::NN_OMNI.name(), C::Auto, M::Auto, Some("bounds+fragdepth")),
         // These two always mark by copy [DESIGN 2.3].
-        (N::NnOmni, C::Ztest, M::Auto, Some("ztest+copy")),
-        (N::NnOmni, C::Discard, M::Auto, Some("discard+copy")),
-        (N::NnOmni, C::Auto, M::FragdepthAny, Some("bounds+fragdepth-any")),
-        (N::NnOmni, C::Auto, M::Copy, Some("bounds+copy")),
+        (method::NN_OMNI.name(), C::Ztest, M::Auto, Some("ztest+copy")),
+        (method::NN_OMNI.name(), C::Discard, M::Auto, Some("discard+copy")),
+        (method::NN_OMNI.name(), C::Auto, M::FragdepthAny, Some("bounds+fragdepth-any")),
+        (method::NN_OMNI.name(), C::Auto, M::Copy, Some("bounds+copy")),
     ] {
         assert_eq!(resolved(method, cull, mark).as_deref(), expected, "{method:?} {cull:?} {mark:?}");
     }
@@ -381,8 +392,8 @@ fn what_a_scene_leaves_open_is_filled_in() {
 
 #[test]
 fn every_form_of_a_method_has_a_plan_with_its_cull_and_mark() {
-    for method in MethodName::ALL {
-        for form in Form::all(method) {
+    for method in method::METHODS.map(|method| method.name()) {
+        for form in method::forms(method) {
             let plan = plan(&scene(&settings(method)), Some(form)).unwrap();
             let uses = |usage: Usage, resource| plan.steps.iter().any(|s| s.accesses.contains(&usage.of(resource)));
             assert_eq!(uses(Usage::Color, Resource::Marks), form.mark == Mark::Copy, "{}", form.name());

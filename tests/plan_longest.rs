@@ -1,9 +1,9 @@
 //! The longest ray of a view: what going through all pixels finds, for much less.
 
 use depthleap::math::ray::{ViewRays, box_interval};
-use depthleap::plan::Region;
-use depthleap::plan::longest::longest_ray;
 use depthleap::scene::Camera;
+use depthleap::scene::Region;
+use depthleap::scene::longest::longest_ray;
 use glam::DVec3;
 
 fn brute(rays: &ViewRays, half: DVec3, region: Region) -> f64 {

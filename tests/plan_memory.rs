@@ -3,6 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use depthleap::method;
 use depthleap::plan;
 use depthleap::read;
 use depthleap::scene::settings::{MethodName, Settings};
@@ -39,7 +40,7 @@ fn cost(method: MethodName, passes: u32) -> (usize, usize) {
     settings.method.name = method;
     settings.sampling.passes = passes;
     let scene = read::scene(&settings).unwrap();
-    let form = plan::form(&scene, plan::papers_form(method)).unwrap();
+    let form = plan::form(&scene, method::papers_form(method)).unwrap();
     let before = HELD.load(Relaxed);
     MOST.store(before, Relaxed);
     let plan = plan::plan(&scene, form).unwrap();
@@ -53,7 +54,7 @@ const BYTES_A_STEP: usize = 256;
 #[test]
 fn planning_takes_little_for_each_pass() {
     counting_sees_what_is_allocated();
-    for method in MethodName::ALL {
+    for method in method::METHODS.map(|method| method.name()) {
         let (few, _) = cost(method, 64);
         let (many, steps) = cost(method, 16_384);
         let a_step = (many - few) / steps;

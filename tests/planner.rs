@@ -6,9 +6,10 @@ mod lacking;
 use std::collections::BTreeSet;
 
 use depthleap::glsl;
-use depthleap::pass::resource::Resource;
-use depthleap::pass::{Group, Work};
-use depthleap::plan::{Plan, papers_form, plan};
+use depthleap::method;
+use depthleap::part::resource::Resource;
+use depthleap::part::{Group, Work};
+use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::scene::Settings;
 use depthleap::vulkan::Shader;
@@ -19,7 +20,7 @@ fn planned(settings: &Settings, planner: bool) -> Plan {
     let mut settings = settings.clone();
     settings.method.planner = planner;
     let scene = read::scene(&settings).unwrap();
-    plan(&scene, papers_form(settings.method.name)).unwrap()
+    plan(&scene, method::papers_form(settings.method.name)).unwrap()
 }
 
 fn resources(plan: &Plan) -> BTreeSet<Resource> {
@@ -127,7 +128,7 @@ fn the_bound_of_an_opacity_is_one() {
     let ends = |termination: f64| {
         let settings = lacking::settings(|s| {
             s.transfer.preset = Some("haze".to_owned());
-            (s.method.name, s.sampling.termination) = (depthleap::scene::settings::MethodName::RcErt, termination);
+            (s.method.name, s.sampling.termination) = (method::RC_ERT.name(), termination);
         });
         let plan = planned(&settings, true);
         let longest = plan.view.longest_samples;

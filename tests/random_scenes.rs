@@ -3,10 +3,11 @@
 
 mod random;
 
+use depthleap::method;
 use depthleap::plan;
 use depthleap::read;
 use depthleap::scene::range::RangeEnd;
-use depthleap::scene::settings::{Accumulate, Alpha, CELLS, Filter, Last, MethodName, Offset, Settings, VolumeTexture};
+use depthleap::scene::settings::{Accumulate, Alpha, CELLS, Filter, Last, Offset, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Volume, field::NanPolicy};
 use depthleap::shared::Frame;
@@ -76,7 +77,7 @@ impl Source {
         s.sampling.samples_per_pass = 1 + self.below(64) as u32;
         s.sampling.passes = self.pick(&[0, 0, 0, 1, 7]);
         s.sampling.termination = self.0.next();
-        s.method.name = self.pick(&MethodName::ALL);
+        s.method.name = self.pick(&method::METHODS.map(|method| method.name()));
         s.method.cell = self.pick(&CELLS);
         s.method.cone = self.between(0.01, 60.0);
         s
@@ -115,7 +116,7 @@ fn what_can_be_planned_has_numbers_of_single_precision() {
         let voxels = (0..8).map(|_| source.wild() as f32).collect();
         let Ok(volume) = Volume::new("random", [2; 3], spacing, Voxels::F32(voxels)) else { continue };
         let Ok(scene) = read::scene_of(&settings, |_| Ok(volume)) else { continue };
-        let plan = plan::form(&scene, plan::papers_form(settings.method.name)).and_then(|f| plan::plan(&scene, f));
+        let plan = plan::form(&scene, method::papers_form(settings.method.name)).and_then(|f| plan::plan(&scene, f));
         let plan = match plan {
             Ok(plan) => plan,
             Err(error) => {

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use depthleap::method;
 use depthleap::read;
 use depthleap::scene::Settings;
-use depthleap::scene::settings::{MethodName, TransferSettings};
+use depthleap::scene::settings::TransferSettings;
 use depthleap::scene::transfer::TransferFunction;
 use tempfile::TempDir;
 
@@ -69,7 +70,7 @@ fn every_key_is_read() {
         block_first = true
     "#;
     let settings = settings(text).unwrap();
-    assert_eq!((settings.method.name, settings.sampling.samples_per_pass), (MethodName::RcBlock, 4));
+    assert_eq!((settings.method.name, settings.sampling.samples_per_pass), (method::RC_BLOCK.name(), 4));
     assert_eq!((settings.image.size, settings.camera.fov_y), ([64, 32], 30.0));
     let scene = read::scene(&settings).unwrap();
     assert_eq!((scene.field.range, scene.transfer.reference), ([0.0, 200.0], 2.0));

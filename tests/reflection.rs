@@ -9,7 +9,7 @@ mod cases;
 use std::collections::{BTreeMap, BTreeSet};
 
 use depthleap::glsl;
-use depthleap::pass::Work;
+use depthleap::part::Work;
 use depthleap::shared;
 use depthleap::vulkan::{Shader, vk};
 

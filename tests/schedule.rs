@@ -8,8 +8,8 @@ use std::collections::{HashMap, HashSet};
 use cases::cases;
 use depthleap::frame::compile::target_format;
 use depthleap::frame::schedule::{Scheduled, schedule};
-use depthleap::pass::resource::{Resource, Usage};
-use depthleap::pass::{Step, Work};
+use depthleap::part::resource::{Resource, Usage};
+use depthleap::part::{Step, Work};
 use depthleap::scene::settings::{Accumulate, Formats};
 use depthleap::vulkan::{Attachment, Role, vk};
 

@@ -8,7 +8,8 @@ use std::mem::offset_of;
 
 use bytemuck::Zeroable;
 use depthleap::glsl;
-use depthleap::pass::{Needs, Work, main_pass};
+use depthleap::part::Work;
+use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
@@ -262,7 +263,8 @@ fn constants(transfer: &TransferFunction) -> (usize, usize) {
     let mut settings = Settings::default();
     settings.volume.builtin = Some("shells:4".to_owned());
     let scene = Scene { transfer: transfer.clone(), ..read::scene(&settings).unwrap() };
-    let Work::Draw(draw) = main_pass::main_pass(&scene, Needs::ALL, 0, None).work else { panic!("a main pass draws") };
+    let plan = plan(&scene, None).unwrap();
+    let Some(Work::Draw(draw)) = plan.steps.last().map(|step| &step.work) else { panic!("a main pass draws") };
     let value = |name: &str| draw.constants.iter().find(|(n, _)| *n == name).unwrap().1 as usize;
     (value("PIECES"), value("SEARCH"))
 }

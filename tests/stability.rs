@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use depthleap::error::Result;
 use depthleap::frame::{Structures, cpu};
-use depthleap::plan::{self, papers_form};
+use depthleap::method;
+use depthleap::plan;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Alpha, DepthFormat, Last, MethodName};
 use depthleap::stability::{Case, Expect, Integrator, Outcome, Rendered, Verdict, battery, judge};
@@ -24,7 +25,7 @@ impl Integrator for Twin {
 
     fn render(&mut self, scene: &Scene) -> Result<std::result::Result<Rendered, String>> {
         // What is refused is refused as it stands.
-        let plan = plan::plan(scene, papers_form(scene.settings.method.name))?;
+        let plan = plan::plan(scene, method::papers_form(scene.settings.method.name))?;
         let mut changed = scene.clone();
         (self.scene)(&mut changed);
         let mut structures = Structures::default();
@@ -50,12 +51,12 @@ fn wrong(integrator: Twin) -> Vec<String> {
     let wrong = |(case, outcome): (Case, Outcome)| {
         (outcome.verdict == Verdict::Wrong).then(|| format!("{}: {}: {:?}", case.group, case.name, outcome.remark))
     };
-    outcomes(MethodName::NnOmni, integrator).into_iter().filter_map(wrong).collect()
+    outcomes(method::NN_OMNI.name(), integrator).into_iter().filter_map(wrong).collect()
 }
 
 #[test]
 fn the_same_samples_in_f64_pass() {
-    for method in [MethodName::NnOmni, MethodName::RcBlock] {
+    for method in [method::NN_OMNI.name(), method::RC_BLOCK.name()] {
         for (case, outcome) in outcomes(method, RIGHT) {
             assert_eq!(outcome.verdict, Verdict::Right, "{}: {}: {:?}", case.group, case.name, outcome.remark);
         }
@@ -115,7 +116,7 @@ fn a_structure_that_jumps_too_far_fails() {
         }
 
         fn render(&mut self, scene: &Scene) -> Result<std::result::Result<Rendered, String>> {
-            let plan = plan::plan(scene, papers_form(MethodName::NnOmni))?;
+            let plan = plan::plan(scene, method::papers_form(method::NN_OMNI.name()))?;
             let mut structures = Structures::default();
             structures.prepare(scene, &plan);
             for (_, built) in &mut structures.distances {
@@ -127,7 +128,7 @@ fn a_structure_that_jumps_too_far_fails() {
         }
     }
     let traps = battery().into_iter().filter(|case| case.group == "skip trap");
-    let fails = |case: &Case| judge(case, &[MethodName::NnOmni], &mut TooFar).unwrap()[0].verdict == Verdict::Wrong;
+    let fails = |case: &Case| judge(case, &[method::NN_OMNI.name()], &mut TooFar).unwrap()[0].verdict == Verdict::Wrong;
     let caught = traps.filter(fails).count();
     assert!(caught >= 10, "{caught} traps caught it");
 }
@@ -142,8 +143,8 @@ fn every_case_says_what_it_holds_and_why() {
         // What is refused is refused when it is loaded or planned.
         if let Expect::Refused(part) = case.expect {
             let refused = case.scene().and_then(|mut scene| {
-                scene.settings.method.name = MethodName::NnOmni;
-                plan::plan(&scene, papers_form(MethodName::NnOmni))
+                scene.settings.method.name = method::NN_OMNI.name();
+                plan::plan(&scene, method::papers_form(method::NN_OMNI.name()))
             });
             let error = refused.map(drop).unwrap_err().to_string();
             assert!(error.contains(part), "{}: {error}", case.name);

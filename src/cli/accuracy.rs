@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{MethodOptions, SceneOptions, is_scene_file, scene_name};
+use super::options::{MethodOptions, SceneOptions, is_scene_file, method_parser, scene_name};
 use super::output::{Progress, settings_in, write_json};
 use crate::error::{Error, Result};
 use crate::measure::accuracy::{
@@ -18,6 +18,7 @@ use crate::measure::picture::{Picture, similarity};
 use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Measured, Runner, view_in_words};
 use crate::measure::write::{self, write_atomically};
+use crate::method;
 use crate::provenance::Provenance;
 use crate::read;
 use crate::reference::exact::ExactIntegrator;
@@ -47,10 +48,10 @@ pub struct Accuracy {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Render methods, with commas between; the ways of sampling that are not the scene's are run by the first of them
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', default_values = METHODS.map(MethodName::name))]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser(), default_values = METHODS.map(MethodName::name))]
     method: Vec<MethodName>,
     /// Steps in voxels, with commas between
-    #[arg(long, value_name = "VOXELS,...", value_delimiter = ',', default_values = STEPS)]
+    #[arg(long, value_name = "VOXELS,...", value_delimiter = ',', value_parser = method_parser(), default_values = STEPS)]
     steps: Vec<f64>,
     /// Every way of sampling, by every method
     #[arg(long)]
@@ -66,8 +67,13 @@ pub struct Accuracy {
     device: DeviceOptions,
 }
 
-const METHODS: [MethodName; 5] =
-    [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOptimal];
+const METHODS: [MethodName; 5] = [
+    method::RC.name(),
+    method::RC_ERT.name(),
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_OPTIMAL.name(),
+];
 
 const STEPS: [&str; 8] = ["8", "4", "2", "1", "0.5", "0.25", "0.125", "0.0625"];
 
@@ -206,7 +212,7 @@ impl Accuracy {
         if self.scene_options.termination.is_none() && !of_a_file {
             settings.sampling.termination = TERMINATION;
         }
-        if self.method.iter().any(|method| !method.on_device()) {
+        if self.method.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
             let remedy = "leave it out; every picture is held against the exact integral";
             return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
         }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::open::DeviceOptions;
-use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
+use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::frame::Verdict;
@@ -17,7 +17,9 @@ use crate::measure::record::{FORMAT, Results, Run};
 use crate::measure::report::{Difference, verdict};
 use crate::measure::runner::{Checked, Effort, Measured, Runner};
 use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
-use crate::pass::cull::Form;
+use crate::method;
+use crate::part::form::Form;
+use crate::part::rows::Method;
 use crate::probe::{self, Probe};
 use crate::provenance::Provenance;
 use crate::read;
@@ -45,7 +47,7 @@ pub struct Bench {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Render methods, with commas between
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', default_values = BENCH_METHODS.map(MethodName::name))]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser(), default_values = BENCH_METHODS.map(MethodName::name))]
     method: Vec<MethodName>,
     /// Forms of culling and marking
     #[arg(long, value_name = "WHICH", default_value = "one")]
@@ -114,7 +116,7 @@ impl Bench {
         let mut opened: Option<Checked> = None;
         for settings in &scenes {
             let scene = read::scene(settings)?;
-            if opened.is_none() && self.method.iter().any(|name| name.on_device()) {
+            if opened.is_none() && self.method.iter().any(|name| method::find(*name).is_some_and(|row| row.on_device)) {
                 opened = Some(self.device.open()?);
             }
             let runner = Runner::new(opened.as_ref(), scene, scene_name(settings));
@@ -157,9 +159,9 @@ impl Bench {
         for &name in &self.method {
             let forms = match self.forms {
                 Forms::One => Vec::new(),
-                Forms::All => Form::all(name).into_iter().filter(|form| available(checked, *form)).collect(),
+                Forms::All => method::forms(name).into_iter().filter(|form| available(checked, *form)).collect(),
             };
-            let cells = match name.distance() {
+            let cells = match method::find(name).and_then(Method::distance) {
                 Some(_) if !self.cells.is_empty() => &self.cells[..],
                 _ => &[settings.method.cell],
             };

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::frame::{SelfCheck, self_check};
 use crate::measure::record::FORMAT;
 use crate::measure::write::{is_standard_output, write_standard_output};
-use crate::scene::settings::MethodName;
+use crate::method;
 use crate::scene::texture::{FilterError, TexelFormat};
 use crate::vulkan::{Device, DeviceInfo, Instance, pick};
 
@@ -73,7 +73,7 @@ impl Info {
                 info,
                 self_check: check.as_ref().map(SelfCheck::words),
                 statistics: check.as_ref().and_then(|c| c.statistics.clone()),
-                auto: check.and_then(|c| c.automatic(MethodName::NnOmni)).map(|f| f.name()),
+                auto: check.and_then(|c| c.automatic(method::NN_OMNI.name())).map(|f| f.name()),
             });
         }
         if let Some(file) = &self.json {
@@ -116,7 +116,7 @@ fn describe(text: &mut String, info: &DeviceInfo, check: Option<&SelfCheck>) {
     for (form, verdict) in check.words() {
         let _ = writeln!(text, "  {form:<22} {verdict}");
     }
-    if let Some(form) = check.automatic(MethodName::NnOmni) {
+    if let Some(form) = check.automatic(method::NN_OMNI.name()) {
         let _ = writeln!(text, "  --cull auto: {}", form.name());
     }
     for format in TexelFormat::ALL {

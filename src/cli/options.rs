@@ -5,8 +5,11 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::error::{Result, shown};
+use crate::method;
+use crate::part::rows::Method;
 use crate::read;
 use crate::scene::Camera;
 use crate::scene::field::NanPolicy;
@@ -296,16 +299,22 @@ pub fn scene_name(settings: &Settings) -> String {
     shown(&format!("{}, {tf}", file.unwrap_or_else(built_in)).replace('\n', "\\n"))
 }
 
+/// The names of methods, each with what it is.
+pub(super) fn method_parser() -> impl TypedValueParser<Value = MethodName> {
+    let value = |method: &Method| PossibleValue::new(method.name).help(format!("{} [{}]", method.about, method.source));
+    PossibleValuesParser::new(method::METHODS.map(value)).try_map(|name| name.parse::<MethodName>())
+}
+
 /// Every method that is shown for a scene when none is asked for.
 pub const BENCH_METHODS: [MethodName; 8] = [
-    MethodName::Rc,
-    MethodName::RcErt,
-    MethodName::RcBlock,
-    MethodName::NnOmni,
-    MethodName::NnDirectional,
-    MethodName::NnCone,
-    MethodName::NnOptimal,
-    MethodName::NnOptimalFused,
+    method::RC.name(),
+    method::RC_ERT.name(),
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_DIRECTIONAL.name(),
+    method::NN_CONE.name(),
+    method::NN_OPTIMAL.name(),
+    method::NN_OPTIMAL_FUSED.name(),
 ];
 
 /// `256,256,128` as sizes of a volume.

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, Serializer};
 
-use super::options::{MethodOptions, SceneOptions, scene_name};
+use super::options::{MethodOptions, SceneOptions, method_parser, scene_name};
 use super::output;
 use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
 use crate::measure::write::{is_standard_output, write_standard_output};
-use crate::pass::resource::Resource;
-use crate::pass::{Constant, Step, Work};
+use crate::method;
+use crate::part::resource::Resource;
+use crate::part::{Constant, Step, Work};
 use crate::plan::{self, LeftOut};
 use crate::read;
 use crate::scene::Scene;
@@ -32,7 +33,7 @@ pub struct Plan {
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
     /// Render method [default: nn-omni]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = method_parser())]
     method: Option<MethodName>,
     /// Write the plan as JSON too; for - to standard output, instead of the text
     #[arg(long, value_name = "FILE")]
@@ -113,7 +114,7 @@ impl Plan {
         self.method_options.apply(&mut settings);
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let scene = read::scene(&settings)?;
-        let form = plan::form(&scene, plan::papers_form(settings.method.name))?;
+        let form = plan::form(&scene, method::papers_form(settings.method.name))?;
         let plan = plan::plan(&scene, form)?;
         let warnings = plan::warnings(&scene, &plan);
         let name = scene_name(&settings);

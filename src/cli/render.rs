@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{MethodOptions, SceneOptions, scene_name};
+use super::options::{MethodOptions, SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::measure::picture::Format;
 use crate::measure::runner::{Effort, Measured, Runner};
 use crate::measure::write::write_standard_error;
 use crate::measure::{Run, table};
+use crate::method;
 use crate::read;
 use crate::scene::Settings;
 use crate::scene::settings::MethodName;
@@ -38,7 +39,7 @@ pub struct Render {
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     output: PathBuf,
     /// Render method [default: nn-omni]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = method_parser())]
     method: Option<MethodName>,
     /// Repeat the run whose settings stand in this JSON of `render` or `bench`, options given here win; FILE#INDEX picks
     /// one of several, counted from 0
@@ -91,7 +92,7 @@ impl Render {
 
     fn measure(&self, settings: &Settings) -> Result<Measured> {
         let scene = read::scene(settings)?;
-        let opened = match settings.method.name.on_device() {
+        let opened = match method::of(settings.method.name)?.on_device {
             false => None,
             true => Some(self.device.open()?),
         };

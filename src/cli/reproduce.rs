@@ -12,10 +12,11 @@ use crate::measure::reproduce::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PAS
 use crate::measure::reproduce::{Column, FORMAT, Reproduction, Shown, Variant, csv, page, text};
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::measure::{Run, write, write_atomically};
+use crate::method;
 use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::Camera;
-use crate::scene::settings::{Alpha, MethodName, MethodSettings, Settings};
+use crate::scene::settings::{Alpha, MethodSettings, Settings};
 
 /// The papers' tables, theirs beside ours
 ///
@@ -129,13 +130,13 @@ impl Reproduce {
         change(&mut settings);
         let method = |name| MethodSettings { name, ..settings.method.clone() };
         let methods = [
-            method(MethodName::RcBlock),
-            MethodSettings { block_first: true, ..method(MethodName::RcBlock) },
-            method(MethodName::NnOptimal),
-            method(MethodName::NnOmni),
-            method(MethodName::NnDirectional),
-            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(MethodName::NnOptimal) },
-            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(MethodName::NnOmni) },
+            method(method::RC_BLOCK.name()),
+            MethodSettings { block_first: true, ..method(method::RC_BLOCK.name()) },
+            method(method::NN_OPTIMAL.name()),
+            method(method::NN_OMNI.name()),
+            method(method::NN_DIRECTIONAL.name()),
+            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(method::NN_OPTIMAL.name()) },
+            MethodSettings { lookups: SAMPLES_PER_PASS, ..method(method::NN_OMNI.name()) },
         ];
         let effort = Effort { warmups: 0, repeats: 0, reference: main };
         let mut runner = Runner::new(Some(checked), read::scene(&settings)?, set.name.to_owned());

@@ -6,10 +6,12 @@ use std::time::Instant;
 use clap::Args;
 
 use super::open::DeviceOptions;
+use super::options::method_parser;
 use super::output::{Progress, write_json};
 use crate::error::{Error, Result};
 use crate::measure::stability::{CaseRecord, FORMAT, OnDevice, Stability as Found, page, text};
 use crate::measure::write::{self, write_atomically};
+use crate::method;
 use crate::provenance::Provenance;
 use crate::scene::settings::MethodName;
 use crate::stability::{Case, Verdict, battery, judge};
@@ -33,7 +35,7 @@ pub struct Stability {
     #[arg(long, value_name = "TEXT")]
     case: Option<String>,
     /// Only these render methods, with commas between [default: all]
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser())]
     method: Vec<MethodName>,
     /// Say which cases there are, and run none
     #[arg(long)]
@@ -53,7 +55,8 @@ impl Stability {
             return write::write_standard_output(lines.concat().as_bytes());
         };
         write::check_folder(output)?;
-        let methods = if self.method.is_empty() { &MethodName::ALL[..] } else { &self.method };
+        let methods =
+            if self.method.is_empty() { &method::METHODS.map(|method| method.name())[..] } else { &self.method };
         let checked = self.device.open()?;
         let progress = Progress::new();
         let provenance = Provenance::now(FORMAT);

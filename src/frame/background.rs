@@ -10,6 +10,7 @@ use std::time::Instant;
 use super::distances::Pending;
 use super::resident::Resident;
 use crate::error::Result;
+use crate::method;
 use crate::scene::Scene;
 use crate::scene::settings::Distance;
 use crate::structure::Lookup;
@@ -32,6 +33,12 @@ struct Coming {
     frame: usize,
     begun: usize,
     pending: Pending,
+}
+
+/// What the scene's method looks up of what lies ahead.
+fn lookup_of(scene: &Scene) -> Result<Option<Lookup>> {
+    let distance = method::of(scene.settings.method.name)?.distance();
+    Ok(distance.map(|distance| Lookup::new(scene, distance)))
 }
 
 /// Builds ahead of the frames.
@@ -62,7 +69,7 @@ impl Background {
             resident.finish(coming.pending, ms)?;
             self.ready.push((coming.frame, lookup));
         }
-        let Some(wanted) = Lookup::of(scene) else { return Ok(None) };
+        let Some(wanted) = lookup_of(scene)? else { return Ok(None) };
         let grid = Grid::new(&scene.field, wanted.cell);
         let serves =
             |lookup: &Lookup| lookup.view.is_some_and(|view| view.serves(&grid, &scene.field, scene.camera.eye));
@@ -94,7 +101,7 @@ impl Background {
         if self.coming.is_none()
             && self.ready.iter().all(|(made_for, _)| *made_for < ahead)
             && let Some(scene) = scene_of(ahead)
-            && let Some(lookup) = Lookup::of(&scene).filter(|lookup| lookup.view.is_some())
+            && let Some(lookup) = lookup_of(&scene)?.filter(|lookup| lookup.view.is_some())
         {
             let mut pending = resident.begin(&scene, &lookup)?;
             if self.device.separate_compute() {

@@ -7,8 +7,8 @@ use ash::vk;
 
 use super::pipelines::Pipelines;
 use crate::error::Result;
-use crate::pass::resource::{Resource, Usage};
-use crate::pass::{Dispatch, Step, Work};
+use crate::part::resource::{Resource, Usage};
+use crate::part::{Dispatch, Step, Work};
 use crate::shared::Slice;
 use crate::vulkan::{
     Buffer, Commands, ComputePipeline, DescriptorSet, Device, Image, Kind, QueryPool, Recorded, Region,

@@ -1,6 +1,6 @@
 //! How large a plan's resources are on a device, before there is one.
 
-use crate::pass::resource::Resource;
+use crate::part::resource::Resource;
 use crate::plan::{Plan, bytes_per_pixel};
 use crate::reference::preintegrated;
 use crate::scene::Scene;

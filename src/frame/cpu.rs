@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::structures::Structures;
 use crate::math::ray::box_interval;
-use crate::pass::{Draw, Faces, Group, Work};
+use crate::part::{Draw, Faces, Group, Work};
 use crate::plan::Plan;
 use crate::reference::{Effect, Pixel, Twin};
 use crate::scene::Scene;

@@ -8,7 +8,7 @@ use ash::vk;
 
 use crate::error::Result;
 use crate::glsl;
-use crate::pass::{Constant, DepthTest};
+use crate::part::{Constant, DepthTest};
 use crate::vulkan::{
     Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
     Shader,

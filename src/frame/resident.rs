@@ -11,7 +11,7 @@ use super::structures::{Built as HostBuilt, Structures};
 use super::texture::Texels;
 use super::upload;
 use crate::error::{Error, Result};
-use crate::pass::resource::Resource;
+use crate::part::resource::Resource;
 use crate::plan::Plan;
 use crate::reference::preintegrated::Table;
 use crate::scene::Scene;

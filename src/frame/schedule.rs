@@ -5,8 +5,8 @@ use std::collections::HashMap;
 
 use ash::vk;
 
-use crate::pass::Step;
-use crate::pass::resource::{Access, Resource, Usage};
+use crate::part::Step;
+use crate::part::resource::{Access, Resource, Usage};
 use crate::vulkan::{Attachment, Dependency, RenderPassInfo, Role, Scope};
 
 /// What runs around one step.
@@ -75,7 +75,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             after.extend(following.map(|a| scope(a.usage)));
             last.insert(resource, usage);
         }
-        let render_pass = matches!(step.work, crate::pass::Work::Draw(_)).then(|| {
+        let render_pass = matches!(step.work, crate::part::Work::Draw(_)).then(|| {
             let earlier = |a: &Access| -> Option<Usage> {
                 let of = |s: &Step| s.accesses.iter().find(|b| b.resource == a.resource).map(|b| b.usage);
                 steps[..i].iter().rev().find_map(of)

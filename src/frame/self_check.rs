@@ -11,7 +11,9 @@ use super::resident::Resident;
 use super::structures::Structures;
 use super::texture_unit;
 use crate::error::Result;
-use crate::pass::cull::Form;
+use crate::method;
+use crate::part::form::Form;
+use crate::part::rows::Method;
 use crate::plan;
 use crate::probe::correct::{Depth, faults};
 use crate::probe::run::missing;
@@ -45,8 +47,8 @@ pub struct SelfCheck {
 impl SelfCheck {
     /// The form `auto` stands for [DESIGN 2.3]: what the papers did where the device does it right.
     pub fn automatic(&self, method: MethodName) -> Option<Form> {
-        let papers = plan::papers_form(method)?;
-        if method.distance().is_none() {
+        let papers = method::papers_form(method)?;
+        if !method::find(method).is_some_and(Method::marks_sections) {
             return Some(papers);
         }
         let order = [papers, Form { cull: Cull::Bounds, mark: Mark::Copy }];
@@ -67,7 +69,7 @@ impl SelfCheck {
 
 /// The forms of `nn-omni` as the device would run them.
 fn forms() -> Vec<Form> {
-    Form::all(MethodName::NnOmni)
+    method::forms(method::NN_OMNI.name())
 }
 
 /// Pixels of a side of the picture that is probed.
@@ -172,7 +174,7 @@ struct Rule {
 
 impl Rule {
     fn new(scene: &Scene, sub_pixel_bits: u32) -> Result<Self> {
-        let plan = plan::plan(scene, plan::papers_form(MethodName::NnOmni))?;
+        let plan = plan::plan(scene, method::papers_form(method::NN_OMNI.name()))?;
         let mut structures = Structures::default();
         structures.prepare(scene, &plan);
         Ok(Self { frame: cpu::run(scene, &plan, &structures, sub_pixel_bits), structures })

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use cpu_time::ProcessTime;
 
 use super::texture::Texels;
-use crate::pass::resource::Resource;
+use crate::part::resource::Resource;
 use crate::plan::Plan;
 use crate::reference::preintegrated::Table;
 use crate::scene::Scene;

@@ -3,7 +3,7 @@
 use super::record::PassTimes;
 use super::timing::{HostTimes, Timing, Timings};
 use crate::frame::FrameRun;
-use crate::pass::Group;
+use crate::part::Group;
 
 /// Of the host, from frames without queries.
 pub fn host_times(plain: &[FrameRun], build: Option<Timing>) -> HostTimes {

@@ -1,7 +1,7 @@
 //! Whether a scene fits, asked before anything large is made for it.
 
 use crate::error::{Error, Result};
-use crate::pass::resource::Resource;
+use crate::part::resource::Resource;
 use crate::plan::{Plan, bytes_per_pixel};
 use crate::scene::Scene;
 use crate::vulkan::DeviceInfo;

@@ -27,11 +27,11 @@ impl Runner<'_> {
     /// As [`Runner::measure`].
     pub fn orbits(&mut self, measured: &mut [Measured], count: usize, progress: &dyn Fn(&str)) -> Result<()> {
         let mut rule: Option<Vec<u64>> = None;
-        for one in measured.iter_mut().filter(|one| one.run.settings.method.name.on_device()) {
+        for one in measured.iter_mut().filter(|one| one.method.on_device) {
             let orbit = self.orbit(&one.run.settings.method, count, progress)?;
             one.run.orbit = Some(orbit.frames);
             // As in the law of skipping: methods that end no ray early have pictures of their own.
-            if !one.run.settings.method.name.under_the_law() {
+            if !one.method.under_the_law() {
                 continue;
             }
             match &rule {

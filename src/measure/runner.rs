@@ -16,8 +16,10 @@ use crate::error::{Error, Result};
 use crate::frame::{
     self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, distances,
 };
-use crate::pass::cull::Form;
-use crate::pass::resource::Resource;
+use crate::method;
+use crate::part::form::Form;
+use crate::part::resource::Resource;
+use crate::part::rows::Method;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
 use crate::scene::settings::{Builder, Cull, MethodSettings, Settings};
@@ -45,6 +47,7 @@ pub struct Checked {
 /// A run and its pictures.
 #[derive(Clone, Debug)]
 pub struct Measured {
+    pub method: &'static Method,
     pub run: Run,
     pub picture: Picture,
     /// The f64 twin's picture, where there is one.
@@ -151,8 +154,9 @@ impl<'a> Runner<'a> {
     fn plan(&self, method: &MethodSettings) -> Result<(Scene, Plan)> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let plan = if !method.name.on_device() {
-            plan::plan(&scene, plan::papers_form(method.name))?
+        let row = method::of(method.name)?;
+        let plan = if !row.on_device {
+            plan::plan(&scene, row.papers)?
         } else {
             let checked = self.checked.ok_or_else(no_device)?;
             let form = plan::form(&scene, checked.check.automatic(method.name))?;
@@ -167,7 +171,7 @@ impl<'a> Runner<'a> {
 
     fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
         let (scene, plan) = self.plan(method)?;
-        if !method.name.on_device() {
+        if !plan.method.on_device {
             return prepare_cpu(scene, plan);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
@@ -188,15 +192,16 @@ impl<'a> Runner<'a> {
 
     /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
-        let method = scene.settings.method.name;
+        let method = method::of(scene.settings.method.name)?;
         let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
-        match self.references.entry(method.ends_rays()) {
+        match self.references.entry(method.ends_rays) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
                 let mut scene = scene.clone();
                 scene.settings.sampling.passes = passes;
-                scene.settings.method.name = method.without_skipping();
-                let plan = plan::plan(&scene, plan::papers_form(scene.settings.method.name))?;
+                let rule = method::without_skipping(method);
+                scene.settings.method.name = rule.name();
+                let plan = plan::plan(&scene, rule.papers)?;
                 let structures = Structures { table: self.structures.table.clone(), ..Structures::default() };
                 Ok(place.insert(cpu::run(&scene, &plan, &structures, bits)))
             }
@@ -211,7 +216,7 @@ impl<'a> Runner<'a> {
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
             error = Some(compared.record("the same sum in f64 (`cpu`)"));
-            ideal = entry.scene.settings.method.name.ends_rays().then_some(Ideal { main: frame.ideal });
+            ideal = entry.plan.method.ends_rays.then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
         let on_cpu = entry.frame.is_none();
@@ -257,7 +262,16 @@ impl<'a> Runner<'a> {
         };
         let verdict = self.checked.zip(form).and_then(|(c, form)| c.check.forms.get(&form));
         let trusted = !matches!(verdict, Some(Verdict::Wrong(_)));
-        Ok(Measured { run, picture: entry.picture, reference, trusted, differing: None, differing_frames: None })
+        let method = entry.plan.method;
+        Ok(Measured {
+            method,
+            run,
+            picture: entry.picture,
+            reference,
+            trusted,
+            differing: None,
+            differing_frames: None,
+        })
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
@@ -272,7 +286,7 @@ impl<'a> Runner<'a> {
                 notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
             }
         }
-        if entry.scene.settings.method.name.skips_blocks() {
+        if entry.plan.method.skips_blocks() {
             let first = entry.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
             notes.push(format!("blocks are tested {order}"));
@@ -302,7 +316,7 @@ impl<'a> Runner<'a> {
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
 /// and notes what was found.
 pub fn law_of_skipping(measured: &mut [Measured]) {
-    let ends_early = |one: &Measured| one.run.settings.method.name.under_the_law();
+    let ends_early = |one: &Measured| one.method.under_the_law();
     let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
     let Some(rule) = ended_early.next() else { return };
     let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));

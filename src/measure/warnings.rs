@@ -1,7 +1,7 @@
 //! What may make a run's picture mislead: what its plan says, and what the picture itself shows.
 
 use super::picture::Picture;
-use crate::pass::resource::Resource;
+use crate::part::resource::Resource;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
 

@@ -2,8 +2,8 @@
 
 use ash::vk;
 
-use super::resource::{Resource, Usage};
-use super::{DepthTest, Draw, Faces, Group, Step, Work};
+use crate::part::resource::{Resource, Usage};
+use crate::part::{DepthTest, Draw, Faces, Group, Step, Work};
 
 /// Dead rays hold 1.0; sections and skipped segments stay at or below 0.5.
 const ALIVE: f32 = 0.75;

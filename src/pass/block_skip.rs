@@ -2,25 +2,29 @@
 
 use ash::vk;
 
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, constants, cull};
+use super::{constants, cull};
+use crate::feature::{self, EARLY_ENDS};
+use crate::part::form::Form;
+use crate::part::resource::{Resource, Usage};
+use crate::part::rows::{Context, Hook};
+use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
-use crate::scene::Scene;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
-pub fn block_skip(scene: &Scene, needs: Needs, pass: u32, form: cull::Form) -> Step {
+pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::CellRange),
-        Usage::Sampled.of(Resource::BlockTable),
     ];
-    accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
-    let shader = format!("block_skip.frag:{}", needs.variant(vec![form.mark_variant()]));
+    accesses.extend(feature::reads(context, Hook::Decide));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
+    let endless = if context.has(&EARLY_ENDS) { "" } else { "+endless" };
+    let shader = format!("block_skip.frag:{}{endless}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
-    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
+    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    draw.specialize(feature::constants(context, Hook::Decide));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("block_skip #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

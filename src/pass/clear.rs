@@ -1,7 +1,7 @@
 //! Empties RES where an intermediate pass reads it before the first main pass has written it.
 
-use super::resource::{Resource, Usage};
-use super::{Group, Step, Work};
+use crate::part::resource::{Resource, Usage};
+use crate::part::{Group, Step, Work};
 
 pub fn clear() -> Step {
     Step {

@@ -1,77 +1,10 @@
-//! The two choices of near-neighbor skipping: how fragments are culled and how they are marked, and what each
-//! pair asks of a step's depth test.
+//! What each pair of cull and mark asks of a step's depth test.
 
 use ash::vk;
 
-use super::resource::{Access, Resource, Usage};
-use super::{DepthTest, Draw};
-use crate::error::{Error, Result};
-pub use crate::scene::settings::Mark;
-use crate::scene::settings::{Cull, MethodName};
-
-/// Cull and mark of a method, with `auto` resolved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Form {
-    pub cull: Cull,
-    pub mark: Mark,
-}
-
-impl Form {
-    /// As it stands in tables: `bounds+fragdepth`.
-    pub fn name(self) -> String {
-        format!("{}+{}", self.cull_name(), self.mark_name())
-    }
-
-    pub fn cull_name(self) -> &'static str {
-        match self.cull {
-            Cull::Auto => "auto",
-            Cull::Bounds => "bounds",
-            Cull::Ztest => "ztest",
-            Cull::Discard => "discard",
-        }
-    }
-
-    pub fn mark_name(self) -> &'static str {
-        match self.mark {
-            Mark::Auto => "auto",
-            Mark::Fragdepth => "fragdepth",
-            Mark::FragdepthAny => "fragdepth-any",
-            Mark::Copy => "copy",
-        }
-    }
-
-    /// All forms that make sense for a method; none for methods that cull nothing.
-    pub fn all(method: MethodName) -> Vec<Self> {
-        let culls = [Cull::Bounds, Cull::Ztest, Cull::Discard];
-        let marks = [Mark::Fragdepth, Mark::FragdepthAny, Mark::Copy];
-        let every = culls.into_iter().flat_map(|cull| marks.map(|mark| Self { cull, mark }));
-        match method {
-            MethodName::Rc | MethodName::Cpu => Vec::new(),
-            MethodName::RcErt | MethodName::RcBlock => every.collect(),
-            _ => every.filter(|f| f.cull == Cull::Bounds || f.mark == Mark::Copy).collect(),
-        }
-    }
-
-    /// # Errors
-    /// When the method has no such form.
-    pub fn check(self, method: MethodName) -> Result<Self> {
-        let all = Self::all(method);
-        if all.contains(&self) {
-            return Ok(self);
-        }
-        let names: Vec<_> = all.into_iter().map(Self::name).collect();
-        Err(Error::usage(
-            format!("--cull {} --mark {}", self.cull_name(), self.mark_name()),
-            format!("method {} has no such form", method.name()),
-            format!("choose one of {}", names.join(", ")),
-        ))
-    }
-
-    /// The macros' variant of an intermediate shader for this way of marking.
-    pub fn mark_variant(self) -> &'static str {
-        self.mark_name()
-    }
-}
+use crate::part::resource::{Access, Resource, Usage};
+use crate::part::{DepthTest, Draw};
+use crate::scene::settings::{Cull, Mark};
 
 /// A box drawn in the upper half of the depth range, as in the thesis' own form [Thesis §5.3].
 const UPPER_HALF: f32 = 0.75;

@@ -1,7 +1,7 @@
 //! Ray direction determination [KW03 §2.1, Thesis §5.2.2].
 
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, Work};
+use crate::part::resource::{Resource, Usage};
+use crate::part::{Draw, Faces, Group, Step, Work};
 use crate::reference;
 
 pub fn direction() -> Step {

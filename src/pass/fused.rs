@@ -1,16 +1,18 @@
 //! Main pass of the fused forms of near-neighbor skipping: it samples and marks where the ray goes on [Thesis §5.7].
 
-use super::cull::{self, Form};
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, constants};
+use super::{constants, cull};
+use crate::feature::{self, DISTANCES, EARLY_ENDS};
+use crate::part::form::Form;
+use crate::part::resource::{Resource, Usage};
+use crate::part::rows::{Context, Hook};
+use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
 use crate::reference::section::section_end;
-use crate::scene::Scene;
 use crate::scene::settings::Cull;
 
-/// Main pass `pass` of `passes`, for rays whose stored section begins at or before it. The last one has nothing left to
-/// decide and marks nothing.
-pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) -> Step {
+/// Main pass `pass`, for rays whose stored section begins at or before it. The last one has nothing left to decide and marks
+/// nothing.
+pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
@@ -18,29 +20,28 @@ pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) ->
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::Volume),
     ];
-    if needs.skips {
+    if context.has(&DISTANCES) {
         accesses.push(Usage::Sampled.of(Resource::NearestDistance));
     }
     // Its own opacity is read where a ray may end.
-    let drawn = if needs.ends { Usage::ColorInput } else { Usage::Color };
+    let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(Resource::Accumulated));
-    let marks = (pass + 1 < passes).then_some(form.mark);
-    let mut variant = vec![marks.map_or("last", |_| form.mark_variant())];
+    let marks = (pass + 1 < context.passes).then_some(form.mark);
+    let mut words = vec![marks.map_or("last", |_| form.mark_variant())];
     if form.cull == Cull::Discard {
-        variant.push("discard");
+        words.push("discard");
     }
-    let (classified, by) = constants::classification(scene, needs);
-    accesses.extend(classified);
-    variant.extend(by);
-    let shader = format!("fused.frag:{}", needs.variant(variant));
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
+    accesses.extend(feature::reads(context, Hook::Sample));
+    words.extend(feature::words(context, Hook::Sample));
+    words.extend(feature::words(context, Hook::Decide));
+    let mut draw = Draw::plain(Faces::Front, &format!("fused.frag:{}", words.join("+")), reference::fused::fused);
     draw.blend = true;
-    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
-    draw.specialize(constants::segment(scene, needs));
-    draw.specialize(constants::near_neighbor(scene));
-    let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
+    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    draw.specialize(feature::constants(context, Hook::Sample));
+    draw.specialize(feature::constants(context, Hook::Decide));
+    let rounding = reference::fused::blend_rounding(context.scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
-    cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
+    cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     if let Some(mark) = marks {
         cull::mark_into(&mut draw, &mut accesses, mark, cull::rising(mark));
     }

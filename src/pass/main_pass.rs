@@ -1,13 +1,15 @@
 //! Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2].
 
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, constants, cull};
+use super::{constants, cull};
+use crate::feature;
+use crate::part::resource::{Resource, Usage};
+use crate::part::rows::{Context, Hook};
+use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
-use crate::scene::Scene;
 use crate::scene::settings::Cull;
 
-/// Main pass `pass`, culled by `cull` = (how, greatest stored depth), or run for every fragment.
-pub fn main_pass(scene: &Scene, needs: Needs, pass: u32, culled: Option<(Cull, f32)>) -> Step {
+/// Main pass `pass`, culled by `culled` = (how, greatest stored depth), or run for every fragment.
+pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
@@ -16,15 +18,14 @@ pub fn main_pass(scene: &Scene, needs: Needs, pass: u32, culled: Option<(Cull, f
         Usage::Sampled.of(Resource::Volume),
         Usage::Color.of(Resource::Accumulated),
     ];
-    let (classified, by) = constants::classification(scene, needs);
-    accesses.extend(classified);
+    accesses.extend(feature::reads(context, Hook::Sample));
     let discard = matches!(culled, Some((Cull::Discard, _))).then_some("discard");
-    let variant: Vec<&str> = discard.into_iter().chain(by).collect();
-    let variant = if variant.is_empty() { "plain".to_owned() } else { variant.join("+") };
+    let words: Vec<&str> = discard.into_iter().chain(feature::words(context, Hook::Sample)).collect();
+    let variant = if words.is_empty() { "plain".to_owned() } else { words.join("+") };
     let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
     draw.blend = true;
-    draw.specialize([constants::samples(scene)]);
-    draw.specialize(constants::segment(scene, needs));
+    draw.specialize([constants::samples(context.scene)]);
+    draw.specialize(feature::constants(context, Hook::Sample));
     if let Some((how, bound)) = culled {
         cull::cull_by_stored(&mut draw, &mut accesses, how, bound);
     }

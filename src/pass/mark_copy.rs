@@ -1,8 +1,8 @@
 //! Marks to the depth buffer: colour image -> buffer -> depth image, since Vulkan copies between the two kinds
 //! only by way of a buffer.
 
-use super::resource::{Resource, Usage};
-use super::{Group, Step, Work};
+use crate::part::resource::{Resource, Usage};
+use crate::part::{Group, Step, Work};
 
 /// Copies the marks that decide who takes part in main pass `pass`.
 pub fn mark_copy(pass: u32) -> Step {

@@ -1,34 +1,38 @@
 //! Intermediate pass of near-neighbor skipping [Thesis §5.3].
 
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Needs, Step, constants, cull};
+use super::{constants, cull};
+use crate::feature::{self, EARLY_ENDS};
+use crate::part::form::Form;
+use crate::part::resource::{Resource, Usage};
+use crate::part::rows::{Context, Hook};
+use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
 use crate::reference::section::section_end;
-use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark};
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
-pub fn near_neighbor(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: cull::Form) -> Step {
+pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
         Usage::Sampled.of(Resource::Entry),
         Usage::Sampled.of(Resource::Direction),
     ];
-    accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
-    accesses.extend(needs.skips.then_some(Usage::Sampled.of(Resource::NearestDistance)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
+    accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
-    let variant = match form.mark {
-        Mark::Copy if culled && form.cull == Cull::Discard => "copy+discard",
-        _ => form.mark_variant(),
+    let mut words = match form.mark {
+        Mark::Copy if culled && form.cull == Cull::Discard => vec!["copy", "discard"],
+        _ => vec![form.mark_variant()],
     };
-    let shader = format!("near_neighbor.frag:{}", needs.variant(vec![variant]));
+    words.extend(feature::words(context, Hook::Decide));
+    let shader = format!("near_neighbor.frag:{}", words.join("+"));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
-    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
-    draw.specialize(constants::near_neighbor(scene));
+    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    draw.specialize(feature::constants(context, Hook::Decide));
     if culled {
-        cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
+        cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     }
     cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
     Step::drawn(format!("near_neighbor #{pass}"), Group::Intermediate, pass, accesses, draw)

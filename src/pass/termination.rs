@@ -2,13 +2,15 @@
 
 use ash::vk;
 
-use super::resource::{Resource, Usage};
-use super::{Draw, Faces, Group, Step, constants, cull};
+use super::{constants, cull};
+use crate::part::form::Form;
+use crate::part::resource::{Resource, Usage};
+use crate::part::rows::Context;
+use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
-use crate::scene::Scene;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
-pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
+pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(Resource::Box),
         Usage::Sampled.of(Resource::Frame),
@@ -18,7 +20,7 @@ pub fn termination(scene: &Scene, pass: u32, form: cull::Form) -> Step {
     ];
     let shader = format!("termination.frag:{}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::termination::termination);
-    draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
+    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

@@ -1,8 +1,8 @@
 //! A plan as text, one line a step: it is read by people and held by tests.
 
 use super::Plan;
-use crate::pass::resource::{Access, Usage};
-use crate::pass::{Step, Work};
+use crate::part::resource::{Access, Usage};
+use crate::part::{Step, Work};
 use crate::scene::texture::Within;
 
 impl Plan {

@@ -5,11 +5,14 @@ pub mod camera;
 pub mod field;
 pub(crate) mod file_name;
 mod fixed;
+pub mod longest;
 pub mod method;
 pub mod range;
+pub mod region;
 pub mod settings;
 pub mod texture;
 pub mod transfer;
+pub mod view;
 pub mod volume;
 mod volume_choice;
 
@@ -17,6 +20,7 @@ use std::sync::Arc;
 
 pub use camera::Camera;
 pub use field::Field;
+pub use region::Region;
 pub use settings::Settings;
 pub use texture::TextureUnit;
 pub use transfer::TransferFunction;

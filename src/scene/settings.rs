@@ -366,7 +366,7 @@ pub const LOOKUPS: std::ops::RangeInclusive<u32> = 1..=1024;
 impl Default for MethodSettings {
     fn default() -> Self {
         Self {
-            name: MethodName::NnOmni,
+            name: MethodName::default(),
             cull: Cull::Auto,
             mark: Mark::Auto,
             depth: DepthFormat::D32,

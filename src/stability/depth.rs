@@ -1,13 +1,14 @@
 //! Depth buffers with as many sections as they tell apart, and one more.
 
 use super::case::{COLOR, Case, Expect, SAME_SUM, Tolerance};
+use crate::method;
 use crate::reference::section::most_sections;
 use crate::scene::settings::{Cull, DepthFormat, Mark, MethodName};
 
 const GROUP: &str = "depth buffer";
 
 /// One of those that copy marks and one that decides in its main passes.
-const METHODS: [MethodName; 2] = [MethodName::NnOmni, MethodName::NnOmniFused];
+const METHODS: [MethodName; 2] = [method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()];
 
 /// Thousands of passes, each of which rounds what is there.
 const MANY: Tolerance =

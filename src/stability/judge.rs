@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::case::{Case, Expect, beer};
 use crate::error::Result;
 use crate::frame::{CpuFrame, Structures, cpu};
-use crate::plan::{self, papers_form};
+use crate::method;
+use crate::plan;
 use crate::reference::exact::ExactIntegrator;
 use crate::scene::settings::MethodName;
 use crate::scene::{Field, Scene};
@@ -103,14 +104,14 @@ pub fn judge(case: &Case, methods: &[MethodName], integrator: &mut dyn Integrato
             (_, Ok(Err(missing))) => Outcome { verdict: Verdict::Missing, remark: Some(missing), ..blank.clone() },
             (expect, Ok(Ok(rendered))) => {
                 let Ok(scene) = &scene else { continue };
-                let ends = method.ends_rays();
+                let ends = method::of(method)?.ends_rays;
                 let rule = match &mut rules[usize::from(ends)] {
                     Some(rule) => rule,
                     none => none.insert(rule(case, expect, scene, method, integrator.sub_pixel_bits())?),
                 };
                 let mut outcome = compared(case, &rendered, rule, blank.clone());
                 // In f64 it is the same to rounding only.
-                if method.under_the_law() && outcome.verdict == Verdict::Right {
+                if method::of(method)?.under_the_law() && outcome.verdict == Verdict::Right {
                     let (first, pixels) = law.get_or_insert_with(|| (method, rendered.pixels.clone()));
                     let bits = |pixels: &[[f64; 4]]| pixels.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
                     if bits(pixels) != bits(&rendered.pixels) {
@@ -193,7 +194,8 @@ fn rule(case: &Case, expect: &Expect, scene: &Scene, method: MethodName, sub_pix
 /// The same samples in f64.
 fn twin(scene: &Scene, method: MethodName, sub_pixel_bits: u32) -> Result<CpuFrame> {
     let mut scene = scene.clone();
-    scene.settings.method.name = method.without_skipping();
-    let plan = plan::plan(&scene, papers_form(scene.settings.method.name))?;
+    let rule = method::without_skipping(method::of(method)?);
+    scene.settings.method.name = rule.name();
+    let plan = plan::plan(&scene, method::papers_form(scene.settings.method.name))?;
     Ok(cpu::run(&scene, &plan, &Structures::default(), sub_pixel_bits))
 }

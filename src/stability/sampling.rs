@@ -2,22 +2,23 @@
 
 use super::case::{COLOR, Case, Expect, ROUNDING, Tolerance};
 use crate::math::opacity::corrected_opacity;
+use crate::method;
 use crate::scene::settings::{Classification, Last, MethodName, Settings};
 
 const GROUP: &str = "sampling";
 
 /// Methods that end rays early.
 const ENDING: [MethodName; 10] = [
-    MethodName::RcErt,
-    MethodName::RcBlock,
-    MethodName::NnOmni,
-    MethodName::NnDirectional,
-    MethodName::NnOptimal,
-    MethodName::NnCone,
-    MethodName::NnOmniFused,
-    MethodName::NnDirectionalFused,
-    MethodName::NnOptimalFused,
-    MethodName::NnConeFused,
+    method::RC_ERT.name(),
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_DIRECTIONAL.name(),
+    method::NN_OPTIMAL.name(),
+    method::NN_CONE.name(),
+    method::NN_OMNI_FUSED.name(),
+    method::NN_DIRECTIONAL_FUSED.name(),
+    method::NN_OPTIMAL_FUSED.name(),
+    method::NN_CONE_FUSED.name(),
 ];
 
 /// Thousands of samples.

@@ -40,10 +40,14 @@ pub struct LookupView {
 }
 
 impl Lookup {
-    /// What the scene's method looks up; none where it does not look ahead.
-    pub fn of(scene: &Scene) -> Option<Self> {
+    /// Whether cells are judged by the range of their values.
+    pub fn reads_ranges(&self) -> bool {
+        self.cell > 1 && !self.nearest
+    }
+
+    /// What is looked up of distances of a kind in a scene.
+    pub fn new(scene: &Scene, distance: Distance) -> Self {
         let method = &scene.settings.method;
-        let distance = method.name.distance()?;
         let nearest = scene.settings.sampling.filter == Filter::Nearest;
         let view = |half_angle| Some(LookupView { eye: scene.camera.eye, half_angle });
         let view = match distance {
@@ -51,7 +55,7 @@ impl Lookup {
             Distance::Optimal => view(None),
             Distance::Cone => view(Some(method.cone.to_radians())),
         };
-        Some(Self { distance, cell: method.cell, nearest, view })
+        Self { distance, cell: method.cell, nearest, view }
     }
 }
 

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use depthleap::frame::{Resident, Structures};
-use depthleap::plan::{papers_form, plan};
+use depthleap::method;
+use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::{CELLS, Filter, MethodName, Settings, VolumeTexture};
@@ -16,7 +17,7 @@ use crate::frame::scenes::{VIEWS, by, seen};
 use crate::harness::{Need, Test, data, test};
 
 const METHODS: [MethodName; 4] =
-    [MethodName::NnOmni, MethodName::NnDirectional, MethodName::NnOptimal, MethodName::NnCone];
+    [method::NN_OMNI.name(), method::NN_DIRECTIONAL.name(), method::NN_OPTIMAL.name(), method::NN_CONE.name()];
 
 /// Built-in volumes: sizes that fill no word, one voxel thick, longer than a distance can be, in the type's own units.
 const BUILT_IN: [(&str, &str); 8] = [
@@ -80,7 +81,7 @@ fn agree(device: &Arc<Device>, scene: &Scene) {
             for method in METHODS {
                 let mut scene = by(&seen(scene, view), method);
                 scene.settings.method.cell = cell;
-                let plan = plan(&scene, papers_form(method)).expect("a plan");
+                let plan = plan(&scene, method::papers_form(method)).expect("a plan");
                 let Some(lookup) = plan.distance else { continue };
                 resident.prepare(&scene, &plan, &Structures::default()).expect("room on the device");
                 let found = resident.read_distances(&lookup).expect("a copy").expect("distances were built");
@@ -130,9 +131,9 @@ fn nothing_and_all_interesting(device: &Arc<Device>) {
 
 /// What depends on the volume alone stays, and distances are those of the new function.
 fn another_transfer_function_keeps_the_ranges(device: &Arc<Device>) {
-    let mut scene = by(&built_in("shells:48", "ramp", |s| s.method.cell = 4), MethodName::NnOmni);
+    let mut scene = by(&built_in("shells:48", "ramp", |s| s.method.cell = 4), method::NN_OMNI.name());
     let mut resident = Resident::new(device);
-    let plan = plan(&scene, papers_form(MethodName::NnOmni)).expect("a plan");
+    let plan = plan(&scene, method::papers_form(method::NN_OMNI.name())).expect("a plan");
     let lookup = plan.distance.expect("distances");
     let mut found = Vec::new();
     for tf in ["ramp", "haze", "ramp"] {

@@ -6,10 +6,11 @@ use depthleap::measure::accuracy::{
 };
 use depthleap::measure::picture::similarity;
 use depthleap::measure::record::Clock;
+use depthleap::method;
 use depthleap::provenance::Provenance;
 use depthleap::read;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, Settings};
+use depthleap::scene::settings::{Accumulate, Alpha, Filter, Last, Offset, Settings};
 
 use crate::runs::picture;
 
@@ -77,17 +78,17 @@ fn explanations_are_those_that_apply() {
         remarks(&scene(volume, tf, change), method, opaque).join("\n")
     };
     let exact: fn(&mut Settings) = |s| s.sampling.filter = Filter::Exact;
-    assert_eq!(of("constant:8", "haze", MethodName::Rc, true, exact), "");
-    assert!(of("shells:24", "ramp", MethodName::Rc, false, exact).contains("trapezoid"));
-    assert!(of("shells:24", "surface", MethodName::Rc, false, exact).contains("jumps"));
-    assert!(of("constant:8", "haze", MethodName::NnOmni, true, exact).contains("rays end at an opacity of 0.95"));
-    assert_eq!(of("constant:8", "haze", MethodName::NnOmni, false, exact), "", "no ray gets that far");
-    assert!(of("constant:8", "haze", MethodName::Rc, true, |_| ()).contains("texture unit"));
+    assert_eq!(of("constant:8", "haze", method::RC.name(), true, exact), "");
+    assert!(of("shells:24", "ramp", method::RC.name(), false, exact).contains("trapezoid"));
+    assert!(of("shells:24", "surface", method::RC.name(), false, exact).contains("jumps"));
+    assert!(of("constant:8", "haze", method::NN_OMNI.name(), true, exact).contains("rays end at an opacity of 0.95"));
+    assert_eq!(of("constant:8", "haze", method::NN_OMNI.name(), false, exact), "", "no ray gets that far");
+    assert!(of("constant:8", "haze", method::RC.name(), true, |_| ()).contains("texture unit"));
     let midpoint: fn(&mut Settings) = |s| {
         (s.sampling.filter, s.sampling.offset) = (Filter::Exact, Offset::Midpoint);
         (s.image.accumulate, s.sampling.alpha) = (Accumulate::Rgba8, Alpha::Paper);
     };
-    let words = of("constant:8", "haze", MethodName::Rc, true, midpoint);
+    let words = of("constant:8", "haze", method::RC.name(), true, midpoint);
     for part in ["order 1 instead of 2", "fewer bits than f32", "has no limit"] {
         assert!(words.contains(part), "{part}: {words}");
     }

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use depthleap::method;
 use depthleap::plan;
 use depthleap::read;
-use depthleap::scene::settings::MethodName;
 
 use crate::damage::{damaged, each};
 use crate::is_fit;
@@ -22,9 +22,9 @@ fn plans(scene: &Path) -> bool {
             return false;
         }
     };
-    MethodName::ALL.into_iter().all(|method| {
+    method::METHODS.map(|method| method.name()).into_iter().all(|method| {
         scene.settings.method.name = method;
-        plan::form(&scene, plan::papers_form(method)).and_then(|form| plan::plan(&scene, form)).is_ok()
+        plan::form(&scene, method::papers_form(method)).and_then(|form| plan::plan(&scene, form)).is_ok()
     })
 }
 

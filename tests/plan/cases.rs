@@ -1,6 +1,7 @@
 //! Small scenes and their plans, one for each method and form that makes another plan.
 
-use depthleap::pass::cull::Form;
+use depthleap::method;
+use depthleap::part::form::Form;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::scene::settings::{Cull, Mark, MethodName};
@@ -26,26 +27,26 @@ pub struct Case {
 }
 
 pub fn cases() -> Vec<Case> {
-    use {Cull::*, Mark::*, MethodName::*};
+    use {Cull::*, Mark::*};
     let form = |cull, mark| Some(Form { cull, mark });
     let rows = [
-        ("rc", Rc, None, false),
-        ("cpu", Cpu, form(Ztest, Fragdepth), false),
-        ("rc-ert", RcErt, form(Ztest, Fragdepth), false),
-        ("rc-ert_bounds_copy", RcErt, form(Bounds, Mark::Copy), false),
-        ("rc-block", RcBlock, form(Ztest, Fragdepth), false),
-        ("rc-block_first", RcBlock, form(Ztest, Fragdepth), true),
-        ("nn-omni_bounds_fragdepth", NnOmni, form(Bounds, Fragdepth), false),
-        ("nn-omni_bounds_fragdepth-any", NnOmni, form(Bounds, FragdepthAny), false),
-        ("nn-omni_bounds_copy", NnOmni, form(Bounds, Mark::Copy), false),
-        ("nn-omni_ztest_copy", NnOmni, form(Ztest, Mark::Copy), false),
-        ("nn-omni_discard_copy", NnOmni, form(Discard, Mark::Copy), false),
-        ("nn-omni_ztest_copy_cell-4", NnOmni, form(Ztest, Mark::Copy), false),
-        ("nn-directional_ztest_copy", NnDirectional, form(Ztest, Mark::Copy), false),
-        ("nn-optimal_ztest_copy", NnOptimal, form(Ztest, Mark::Copy), false),
-        ("nn-omni+fused_bounds_fragdepth", NnOmniFused, form(Bounds, Fragdepth), false),
-        ("nn-omni+fused_ztest_copy", NnOmniFused, form(Ztest, Mark::Copy), false),
-        ("nn-omni+fused_discard_copy", NnOmniFused, form(Discard, Mark::Copy), false),
+        ("rc", method::RC.name(), None, false),
+        ("cpu", method::CPU.name(), form(Ztest, Fragdepth), false),
+        ("rc-ert", method::RC_ERT.name(), form(Ztest, Fragdepth), false),
+        ("rc-ert_bounds_copy", method::RC_ERT.name(), form(Bounds, Mark::Copy), false),
+        ("rc-block", method::RC_BLOCK.name(), form(Ztest, Fragdepth), false),
+        ("rc-block_first", method::RC_BLOCK.name(), form(Ztest, Fragdepth), true),
+        ("nn-omni_bounds_fragdepth", method::NN_OMNI.name(), form(Bounds, Fragdepth), false),
+        ("nn-omni_bounds_fragdepth-any", method::NN_OMNI.name(), form(Bounds, FragdepthAny), false),
+        ("nn-omni_bounds_copy", method::NN_OMNI.name(), form(Bounds, Mark::Copy), false),
+        ("nn-omni_ztest_copy", method::NN_OMNI.name(), form(Ztest, Mark::Copy), false),
+        ("nn-omni_discard_copy", method::NN_OMNI.name(), form(Discard, Mark::Copy), false),
+        ("nn-omni_ztest_copy_cell-4", method::NN_OMNI.name(), form(Ztest, Mark::Copy), false),
+        ("nn-directional_ztest_copy", method::NN_DIRECTIONAL.name(), form(Ztest, Mark::Copy), false),
+        ("nn-optimal_ztest_copy", method::NN_OPTIMAL.name(), form(Ztest, Mark::Copy), false),
+        ("nn-omni+fused_bounds_fragdepth", method::NN_OMNI_FUSED.name(), form(Bounds, Fragdepth), false),
+        ("nn-omni+fused_ztest_copy", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy), false),
+        ("nn-omni+fused_discard_copy", method::NN_OMNI_FUSED.name(), form(Discard, Mark::Copy), false),
     ];
     let mut cases: Vec<Case> = rows
         .map(|(name, method, form, block_first)| {
@@ -56,7 +57,7 @@ pub fn cases() -> Vec<Case> {
         })
         .into();
     // Long enough for the rays left to be counted.
-    let mut settings = settings(NnOmniFused);
+    let mut settings = settings(method::NN_OMNI_FUSED.name());
     settings.sampling.samples_per_pass = 2;
     let plan = plan(&scene(&settings), form(Bounds, Mark::Copy)).unwrap();
     cases.push(Case { name: "nn-omni+fused_bounds_copy_counted", plan });

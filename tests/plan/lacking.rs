@@ -1,9 +1,9 @@
 //! Scenes that each lack one thing a frame may have.
 
-use depthleap::pass::Group;
-use depthleap::pass::resource::Resource;
+use depthleap::method;
+use depthleap::part::Group;
+use depthleap::part::resource::Resource;
 use depthleap::scene::Settings;
-use depthleap::scene::settings::MethodName;
 
 /// What a plan has less for it.
 #[derive(Clone, Copy, Debug)]
@@ -42,12 +42,12 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     ("no colours", |s| preset(s, "ramp"), Less::Resource(Resource::Transfer)),
     (
         "no colours, fused",
-        |s| (preset(s, "ramp"), s.method.name = MethodName::NnOmniFused).1,
+        |s| (preset(s, "ramp"), s.method.name = method::NN_OMNI_FUSED.name()).1,
         Less::Resource(Resource::Transfer),
     ),
     (
         "no colours, without skipping",
-        |s| (preset(s, "surface"), s.method.name = MethodName::Rc).1,
+        |s| (preset(s, "surface"), s.method.name = method::RC.name()).1,
         Less::Resource(Resource::Transfer),
     ),
     (
@@ -58,7 +58,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     (
         "nothing to skip, fused",
         |s| {
-            s.method.name = MethodName::NnOmniFused;
+            s.method.name = method::NN_OMNI_FUSED.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
         Less::Resource(Resource::NearestDistance),
@@ -66,7 +66,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     (
         "nothing to skip, octants",
         |s| {
-            s.method.name = MethodName::NnDirectional;
+            s.method.name = method::NN_DIRECTIONAL.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
         Less::Resource(Resource::NearestDistance),
@@ -74,7 +74,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     (
         "no empty blocks",
         |s| {
-            s.method.name = MethodName::RcBlock;
+            s.method.name = method::RC_BLOCK.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
         Less::Resource(Resource::CellRange),
@@ -82,23 +82,23 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     ("nothing to skip and no ray that ends", |s| preset(s, "haze"), Less::Group(Group::Intermediate)),
     (
         "nothing to skip and no ray that ends, fused",
-        |s| (preset(s, "haze"), s.method.name = MethodName::NnOmniFused).1,
+        |s| (preset(s, "haze"), s.method.name = method::NN_OMNI_FUSED.name()).1,
         Less::Group(Group::Intermediate),
     ),
     (
         "nothing to skip and no ray that ends, blocks",
-        |s| (preset(s, "haze"), s.method.name = MethodName::RcBlock).1,
+        |s| (preset(s, "haze"), s.method.name = method::RC_BLOCK.name()).1,
         Less::Group(Group::Intermediate),
     ),
     (
         "no ray that ends",
-        |s| (s.method.name = MethodName::RcErt, s.sampling.termination = 1.0).1,
+        |s| (s.method.name = method::RC_ERT.name(), s.sampling.termination = 1.0).1,
         Less::Resource(Resource::Stored),
     ),
     (
         "no opacity to end a ray",
         |s| {
-            s.method.name = MethodName::RcErt;
+            s.method.name = method::RC_ERT.name();
             s.transfer.points = Some(vec![[0.0, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.01]]);
         },
         Less::Group(Group::Intermediate),
@@ -109,7 +109,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     (
         "a corner of the box, fused",
         |s| {
-            s.method.name = MethodName::NnOmniFused;
+            s.method.name = method::NN_OMNI_FUSED.name();
             s.camera.target = [-0.75, -0.75, 0.0];
         },
         Less::Pixels,

@@ -1,5 +1,6 @@
 //! The order that theory gives, and why an error may fall faster, slower or not at all.
 
+use crate::method;
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, VolumeTexture};
 
@@ -76,7 +77,7 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
          the jump where it only touches it",
     );
     say(
-        method.ends_rays() && sampling.termination < 1.0 && opaque,
+        method::find(method).is_some_and(|row| row.ends_rays) && sampling.termination < 1.0 && opaque,
         &format!("rays end at an opacity of {}: what lies behind is missing, whatever the step", sampling.termination),
     );
     say(

@@ -5,10 +5,10 @@ use crate::frame::compile::target_format;
 use crate::frame::{GpuFrame, Measure, Resident, Structures, cpu};
 use crate::measure::limits;
 use crate::measure::runner::{Checked, builds_on_host, refuse_missing};
-use crate::pass::resource::Resource;
-use crate::plan::{self, Plan, papers_form};
+use crate::method;
+use crate::part::resource::Resource;
+use crate::plan::{self, Plan};
 use crate::scene::Scene;
-use crate::scene::settings::MethodName;
 use crate::stability::{Integrator, Rendered};
 use crate::vulkan::vk;
 
@@ -24,7 +24,7 @@ impl<'a> OnDevice<'a> {
     }
 
     fn on_cpu(&self, scene: &Scene) -> Result<Rendered> {
-        let plan = plan::plan(scene, papers_form(MethodName::Cpu))?;
+        let plan = plan::plan(scene, method::papers_form(method::CPU.name()))?;
         let structures = Structures { table: self.structures.table(scene), ..Structures::default() };
         let frame = cpu::run(scene, &plan, &structures, self.sub_pixel_bits());
         Ok(Rendered { pixels: frame.pixels, steps: plan.steps.len() })
@@ -57,7 +57,7 @@ impl Integrator for OnDevice<'_> {
 
     fn render(&mut self, scene: &Scene) -> Result<std::result::Result<Rendered, String>> {
         let method = scene.settings.method.name;
-        if !method.on_device() {
+        if !method::of(method)?.on_device {
             return self.on_cpu(scene).map(Ok);
         }
         let form = plan::form(scene, self.checked.check.automatic(method))?;

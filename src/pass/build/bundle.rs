@@ -1,8 +1,8 @@
 //! Distances along bundles of rays: `optimal` and `cone` [Thesis §5.3.1, §5.7].
 
 use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
-use crate::pass::Step;
-use crate::pass::resource::Resource;
+use crate::part::Step;
+use crate::part::resource::Resource;
 use crate::shared::Slice;
 use crate::structure::bundle::SCALES;
 use crate::structure::grid::Grid;

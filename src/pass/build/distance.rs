@@ -1,8 +1,8 @@
 //! Exact Euclidean distance transforms, axis by axis [Thesis §5.3.1]: in any direction, or for each octant.
 
 use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
-use crate::pass::resource::Resource;
-use crate::pass::{Step, Work};
+use crate::part::resource::Resource;
+use crate::part::{Step, Work};
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
 use crate::structure::square::{reach, weight};

@@ -1,13 +1,15 @@
 //! Which cells are interesting: a bit for each, from the volume or from the ranges of larger cells.
 
 use super::{dispatch, slice, words_of_bits};
-use crate::pass::Step;
-use crate::pass::resource::Resource;
+use crate::part::Step;
+use crate::part::resource::Resource;
+use crate::structure::Lookup;
 use crate::structure::grid::Grid;
 
-/// `holes`: the volume has cells that stay transparent. Larger cells do not look at them. `nearest`: samples have the value
+/// `holes`: the volume has cells that stay transparent. Larger cells do not look at them. With a nearest filter samples have the value
 /// of the nearest voxel, and every voxel of a cell is looked at by itself.
-pub fn interesting(grid: &Grid, holes: bool, nearest: bool) -> Step {
+pub fn interesting(grid: &Grid, holes: bool, lookup: &Lookup) -> Step {
+    let nearest = lookup.nearest;
     let holes = holes && grid.cell == 1;
     let shader = match (nearest, holes) {
         (false, _) if grid.cell > 1 => "structure/interesting.comp:ranges",
@@ -16,7 +18,7 @@ pub fn interesting(grid: &Grid, holes: bool, nearest: bool) -> Step {
         (true, false) => "structure/interesting.comp:nearest",
         (true, true) => "structure/interesting.comp:nearest+holes",
     };
-    let mut reads = match ranges_are_read(grid, nearest) {
+    let mut reads = match lookup.reads_ranges() {
         true => vec![("cell_range", Resource::CellRange)],
         false => vec![("volume", Resource::Volume)],
     };
@@ -26,9 +28,4 @@ pub fn interesting(grid: &Grid, holes: bool, nearest: bool) -> Step {
     let count = words_of_bits(grid);
     let voxels = if nearest { (grid.cell + 1).pow(3) } else { 1 };
     dispatch("interesting".to_owned(), shader, &reads, &writes, slice(grid, count), 32 * voxels)
-}
-
-/// Whether larger cells are judged by the range of their values.
-pub fn ranges_are_read(grid: &Grid, nearest: bool) -> bool {
-    grid.cell > 1 && !nearest
 }

@@ -10,11 +10,11 @@ mod range;
 
 pub use bundle::{bundle, widen};
 pub use distance::{directional, omni};
-use interesting::{interesting, ranges_are_read};
+use interesting::interesting;
 pub use range::cell_range;
 
-use super::resource::{Access, Resource, Usage};
-use super::{Dispatch, Group, Step, Work};
+use crate::part::resource::{Access, Resource, Usage};
+use crate::part::{Dispatch, Group, Step, Work};
 use crate::scene::Field;
 use crate::scene::settings::Distance;
 use crate::shared::Slice;
@@ -40,8 +40,8 @@ pub fn steps(field: &Field, lookup: &Lookup) -> Vec<Step> {
 
 /// The steps from the volume to which cells are interesting.
 pub fn cells(grid: &Grid, field: &Field, lookup: &Lookup) -> Vec<Step> {
-    let ranges = ranges_are_read(grid, lookup.nearest).then(|| cell_range(grid));
-    ranges.into_iter().chain([interesting(grid, field.holes.is_some(), lookup.nearest)]).collect()
+    let ranges = lookup.reads_ranges().then(|| cell_range(grid));
+    ranges.into_iter().chain([interesting(grid, field.holes.is_some(), lookup)]).collect()
 }
 
 /// What a step of `count` invocations knows of the grid.

@@ -1,8 +1,8 @@
 //! Value range of every cell of a grid; with a side of 8, of the blocks of [KW03 §2.3]. Depends on the volume alone.
 
 use super::{dispatch, slice};
-use crate::pass::Step;
-use crate::pass::resource::Resource;
+use crate::part::Step;
+use crate::part::resource::Resource;
 use crate::structure::grid::Grid;
 
 pub fn cell_range(grid: &Grid) -> Step {

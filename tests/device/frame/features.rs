@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
 use depthleap::measure::runner::{Checked, Effort, Runner, law_of_skipping};
-use depthleap::pass::cull::{Form, Mark};
-use depthleap::plan::{self, papers_form};
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::plan;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{Accumulate, Cull, Filter, Last, MethodName, MethodSettings, VolumeTexture};
+use depthleap::scene::settings::{Accumulate, Cull, Filter, Last, Mark, MethodName, MethodSettings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, Volume};
 use depthleap::vulkan::Device;
@@ -16,7 +17,8 @@ use super::scenes::{Stage, VIEWS, by, checked, differing, exactly, forms, scene,
 use crate::harness::{Need, Test, open, test};
 
 /// Methods that end rays early.
-const ENDING: [MethodName; 4] = [MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused];
+const ENDING: [MethodName; 4] =
+    [method::RC_ERT.name(), method::RC_BLOCK.name(), method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()];
 
 const COPY: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Copy });
 
@@ -62,7 +64,7 @@ fn self_check_finds_what_is_known_of_the_driver(device: &Arc<Device>) {
     } else if driver.contains("SwiftShader") {
         assert!(check.forms.values().all(|v| *v == Verdict::Right), "{driver}: {:?}", check.words());
     }
-    let automatic = check.automatic(MethodName::NnOmni).expect("a form");
+    let automatic = check.automatic(method::NN_OMNI.name()).expect("a form");
     assert_eq!(check.forms[&automatic], Verdict::Right);
 }
 
@@ -111,7 +113,7 @@ fn one_queue_gives_the_same_picture(device: &Arc<Device>) {
     if !device.separate_compute() {
         println!("{} has one queue: both are the same path here", device.info.name);
     }
-    let scene = by(&scene("blocks:48", "ramp", |_| {}), MethodName::RcBlock);
+    let scene = by(&scene("blocks:48", "ramp", |_| {}), method::RC_BLOCK.name());
     let shots = [device, &single].map(|device| Stage::new(device).shoot(&scene, COPY));
     assert_eq!(differing(&shots[0].picture, &shots[1].picture), 0);
     assert_eq!(shots[0].run.fragments, shots[1].run.fragments);
@@ -120,7 +122,7 @@ fn one_queue_gives_the_same_picture(device: &Arc<Device>) {
 
 fn repeated_frames_are_the_same(device: &Arc<Device>) {
     let scene = scene("shells:32", "ramp", |_| {});
-    let both = [MethodName::NnOmni, MethodName::NnOmniFused].map(|method| by(&scene, method));
+    let both = [method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()].map(|method| by(&scene, method));
     for (scene, form) in
         both.iter().flat_map(|s| forms(device, s.settings.method.name).into_iter().map(move |f| (s, f)))
     {
@@ -141,7 +143,7 @@ fn repeated_frames_are_the_same(device: &Arc<Device>) {
 
 fn looking_away_is_transparent(device: &Arc<Device>) {
     let away = scene("shells:16", "haze", |s| s.camera.target = [0.0, 0.0, 5.0]);
-    for method in [MethodName::Rc, MethodName::NnOmni] {
+    for method in [method::RC.name(), method::NN_OMNI.name()] {
         let form = forms(device, method).pop().flatten();
         let shot = Stage::new(device).shoot(&by(&away, method), form);
         assert!(shot.plan.steps.is_empty());
@@ -180,7 +182,7 @@ fn volume_formats_differ_by_their_rounding(device: &Arc<Device>) {
         let scene = scene("shells:32", "ramp", |s| {
             (s.volume.texture, s.sampling.filter, s.sampling.termination) = (texture, filter, 1.0);
         });
-        Stage::new(device).shoot(&by(&scene, MethodName::Rc), None).picture
+        Stage::new(device).shoot(&by(&scene, method::RC.name()), None).picture
     };
     let exact = taken(VolumeTexture::R32f, Filter::Exact);
     // u8 voxels are the same numbers in every format, up to the last bit of a UNORM and 1/65535 of an R16 over its range.
@@ -197,7 +199,7 @@ fn accumulation_formats_differ_by_their_rounding(device: &Arc<Device>) {
             exactly(s);
             (s.image.accumulate, s.sampling.termination) = (accumulate, 1.0);
         });
-        let shot = Stage::new(device).shoot(&by(&scene, MethodName::Rc), None);
+        let shot = Stage::new(device).shoot(&by(&scene, method::RC.name()), None);
         (shot.plan.passes as f32, shot.picture)
     };
     let (passes, full) = taken(Accumulate::Rgba32f);
@@ -213,14 +215,14 @@ fn holes_are_transparent(device: &Arc<Device>) {
     let mut voxels = vec![1.0f32; 9 * 9 * 9];
     voxels[4 * 81 + 4 * 9 + 4] = f32::NAN;
     let volume = Volume::new("holed", [9; 3], [1.0; 3], Voxels::F32(voxels)).expect("a volume");
-    for method in [MethodName::Rc].into_iter().chain(ENDING) {
+    for method in [method::RC.name()].into_iter().chain(ENDING) {
         let mut scene = by(&scene("constant:9", "haze", exactly), method);
         scene.settings.sampling.last = Last::Partial;
         scene.field = Arc::new(Field::new(volume.clone(), Some([0.0, 1.0]), NanPolicy::Hole).expect("a field"));
         let form = forms(device, method).pop().flatten();
         let mut stage = Stage::new(device);
         let shot = stage.shoot(&scene, form);
-        let twin = stage.twin(&scene, papers_form(method));
+        let twin = stage.twin(&scene, method::papers_form(method));
         let [width, height] = scene.settings.image.size;
         let middle = (height / 2 * width + width / 2) as usize;
         let off = (f64::from(shot.picture[middle][3]) - twin.pixels[middle][3]).abs();
@@ -236,9 +238,9 @@ fn omni_runs_fewer_fragments_than_blocks(device: &Arc<Device>) {
     for view in &VIEWS[..2] {
         let scene = seen(&scene("jets:64", "ramp", |_| {}), *view);
         let mut stage = Stage::new(device);
-        let [block, omni] = [MethodName::RcBlock, MethodName::NnOmni]
+        let [block, omni] = [method::RC_BLOCK.name(), method::NN_OMNI.name()]
             .map(|method| stage.shoot(&by(&scene, method), COPY).run.fragments.expect("counts"));
-        let ideal = stage.twin(&by(&scene, MethodName::RcErt), papers_form(MethodName::RcErt)).ideal;
+        let ideal = stage.twin(&by(&scene, method::RC_ERT.name()), method::papers_form(method::RC_ERT.name())).ideal;
         assert!(sum(&omni.main) < sum(&block.main) && sum(&omni.intermediate) < sum(&block.intermediate) / 2);
         assert!(ideal <= sum(&omni.main), "ideal {ideal}, omni {}", sum(&omni.main));
     }
@@ -251,7 +253,7 @@ fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
     for view in VIEWS {
         let scene = seen(&scene("jets:64", "ramp", |_| {}), view);
         let mut stage = Stage::new(device);
-        let [apart, fused] = [MethodName::NnOmni, MethodName::NnOmniFused]
+        let [apart, fused] = [method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()]
             .map(|method| stage.shoot(&by(&scene, method), COPY).run.fragments.expect("counts"));
         assert_eq!(fused.intermediate[0], apart.intermediate[0], "{}: the first pass is the same", view.0);
         assert_eq!(sum(&fused.intermediate[1..]), 0, "{}: others are merged", view.0);
@@ -263,11 +265,10 @@ fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
 }
 
 fn every_distance_has_its_fused_form(device: &Arc<Device>) {
-    use MethodName::{NnConeFused, NnDirectionalFused, NnOptimalFused};
     let scene = seen(&scene("shells:32", "ramp", |_| {}), VIEWS[1]);
     let mut stage = Stage::new(device);
-    let rule = stage.shoot(&by(&scene, MethodName::RcErt), COPY).picture;
-    for method in [NnDirectionalFused, NnOptimalFused, NnConeFused] {
+    let rule = stage.shoot(&by(&scene, method::RC_ERT.name()), COPY).picture;
+    for method in [method::NN_DIRECTIONAL_FUSED.name(), method::NN_OPTIMAL_FUSED.name(), method::NN_CONE_FUSED.name()] {
         let shot = stage.shoot(&by(&scene, method), COPY);
         assert_eq!(differing(&shot.picture, &rule), 0, "{}", method.name());
     }
@@ -276,7 +277,7 @@ fn every_distance_has_its_fused_form(device: &Arc<Device>) {
 fn runs_are_held_against_the_law_of_skipping(device: &Arc<Device>) {
     let scene = scene("shells:24", "ramp", |_| {});
     let checked = Checked { device: device.clone(), check: checked(device).clone(), early_end: None };
-    let methods = [MethodName::Rc, MethodName::RcErt, MethodName::NnOmni]
+    let methods = [method::RC.name(), method::RC_ERT.name(), method::NN_OMNI.name()]
         .map(|name| MethodSettings { name, ..MethodSettings::default() });
     let effort = Effort { warmups: 0, repeats: 0, reference: false };
     let mut measured =

@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use depthleap::frame::Verdict;
-use depthleap::pass::cull::Form;
-use depthleap::plan::papers_form;
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Classification, Distance, Last, MethodName, Offset, Settings};
 use depthleap::structure::Lookup;
@@ -17,13 +18,13 @@ use crate::harness::{Need, Test, test};
 /// Those that read distances of other kinds differ in the structure alone, which `orbit` holds from twelve views; here
 /// they are seen from within and along faces too, in one form.
 const SKIPPING: [MethodName; 7] = [
-    MethodName::RcErt,
-    MethodName::RcBlock,
-    MethodName::NnOmni,
-    MethodName::NnOmniFused,
-    MethodName::NnDirectional,
-    MethodName::NnCone,
-    MethodName::NnOptimalFused,
+    method::RC_ERT.name(),
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_OMNI_FUSED.name(),
+    method::NN_DIRECTIONAL.name(),
+    method::NN_CONE.name(),
+    method::NN_OPTIMAL_FUSED.name(),
 ];
 
 /// Views in which every form is run.
@@ -34,11 +35,11 @@ type Change = fn(&mut Settings);
 /// Changes of the method's own settings that may change counts and never the picture, and the methods they are for.
 const TURNS: [(&str, &[MethodName], Change); 4] = [
     ("as it is", &SKIPPING, |_| {}),
-    ("block first", &[MethodName::RcBlock], |s| s.method.block_first = true),
-    ("a lookup for every sample", &[MethodName::NnOmni, MethodName::NnOptimalFused], |s| {
+    ("block first", &[method::RC_BLOCK.name()], |s| s.method.block_first = true),
+    ("a lookup for every sample", &[method::NN_OMNI.name(), method::NN_OPTIMAL_FUSED.name()], |s| {
         s.method.lookups = s.sampling.samples_per_pass;
     }),
-    ("no exit lookahead", &[MethodName::NnOmni, MethodName::NnOmniFused], |s| s.method.exit_lookahead = false),
+    ("no exit lookahead", &[method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()], |s| s.method.exit_lookahead = false),
 ];
 
 /// Volume, transfer function and what else is set.
@@ -112,14 +113,19 @@ fn law(device: &Arc<Device>, scene: &Scene) {
     // Large volumes are seen from twelve further sides by `orbit`.
     for (i, view) in VIEWS.into_iter().enumerate().take(if large { 3 } else { VIEWS.len() }) {
         let scene = seen(scene, view);
-        let ert = by(&scene, MethodName::RcErt);
-        let rule = stage.shoot(&ert, papers_form(MethodName::RcErt));
+        let ert = by(&scene, method::RC_ERT.name());
+        let rule = stage.shoot(&ert, method::papers_form(method::RC_ERT.name()));
         for method in SKIPPING {
             for (turn, _, change) in TURNS.into_iter().filter(|turn| turn.1.contains(&method)) {
                 let mut scene = by(&scene, method);
                 change(&mut scene.settings);
                 // A structure for each view of a large volume takes seconds: in small cells for one of them.
-                if large && i != 1 && Lookup::of(&scene).is_some_and(|lookup| lookup.view.is_some()) {
+                if large
+                    && i != 1
+                    && method::find(method)
+                        .and_then(Method::distance)
+                        .is_some_and(|kind| Lookup::new(&scene, kind).view.is_some())
+                {
                     scene.settings.method.cell = 4;
                 }
                 let mut counts = None;
@@ -127,7 +133,7 @@ fn law(device: &Arc<Device>, scene: &Scene) {
                 // others the two that differ most.
                 let all = forms(device, method);
                 let last = all[all.len() - 1];
-                let some = match method.distance() {
+                let some = match method::find(method).and_then(Method::distance) {
                     Some(distance) if distance != Distance::Omni => &[last][..],
                     _ if i < ALL_FORMS => &all[..],
                     _ => &[all[0], last],
@@ -154,12 +160,12 @@ fn law(device: &Arc<Device>, scene: &Scene) {
 /// not asked of it.
 pub fn trusted(device: &Arc<Device>, method: MethodName, form: Option<Form>) -> bool {
     let verdict = form.and_then(|form| checked(device).forms.get(&form));
-    method.distance().is_none() || !matches!(verdict, Some(Verdict::Wrong(_)))
+    method::find(method).and_then(Method::distance).is_none() || !matches!(verdict, Some(Verdict::Wrong(_)))
 }
 
 fn would_see_a_changed_pixel(device: &Arc<Device>) {
     let scene = scene("shells:16", "ramp", |_| {});
-    let shot = Stage::new(device).shoot(&scene, papers_form(MethodName::RcErt));
+    let shot = Stage::new(device).shoot(&scene, method::papers_form(method::RC_ERT.name()));
     let mut changed = shot.picture.clone();
     assert_eq!(differing(&shot.picture, &changed), 0);
     let bits = changed[4321][2].to_bits() ^ 1;

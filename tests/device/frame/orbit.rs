@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use depthleap::measure::runner::{Checked, Runner};
-use depthleap::plan::papers_form;
+use depthleap::method;
 use depthleap::scene::settings::{MethodName, MethodSettings};
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
@@ -46,14 +46,14 @@ const FUSED: usize = 4;
 
 /// From the loosest to the tightest, and the fused ones.
 const METHODS: [MethodName; 8] = [
-    MethodName::NnOmni,
-    MethodName::NnCone,
-    MethodName::NnDirectional,
-    MethodName::NnOptimal,
-    MethodName::NnOmniFused,
-    MethodName::NnConeFused,
-    MethodName::NnDirectionalFused,
-    MethodName::NnOptimalFused,
+    method::NN_OMNI.name(),
+    method::NN_CONE.name(),
+    method::NN_DIRECTIONAL.name(),
+    method::NN_OPTIMAL.name(),
+    method::NN_OMNI_FUSED.name(),
+    method::NN_CONE_FUSED.name(),
+    method::NN_DIRECTIONAL_FUSED.name(),
+    method::NN_OPTIMAL_FUSED.name(),
 ];
 
 pub fn tests() -> Vec<Test> {
@@ -82,15 +82,18 @@ fn orbit(device: &Arc<Device>, scene: &Scene) {
         // Not head-on to any face.
         let camera = Camera { eye: DVec3::new(0.21, 0.6, 1.8), ..(&scene.settings.camera).into() };
         let scene = scene.clone().seen_by(camera.turned(degrees));
-        let ert = by(&scene, MethodName::RcErt);
-        let rule = stage.shoot(&ert, papers_form(MethodName::RcErt));
-        let twin = stage.twin(&ert, papers_form(MethodName::RcErt));
+        let ert = by(&scene, method::RC_ERT.name());
+        let rule = stage.shoot(&ert, method::papers_form(method::RC_ERT.name()));
+        let twin = stage.twin(&ert, method::papers_form(method::RC_ERT.name()));
         // Where f32 decides what f64 does not, a segment may contribute on one side only.
         let undecided = twin.undecided.iter().filter(|u| **u).count() as u64 * u64::from(rule.plan.passes);
         let sum = |counts: &[u64]| counts.iter().sum::<u64>();
         let ert_main = sum(&rule.run.fragments.as_ref().expect("counts").main);
         let mut main = Vec::new();
-        for method in METHODS.into_iter().filter(|method| !method.fused() || view % FUSED == 0) {
+        for method in METHODS
+            .into_iter()
+            .filter(|method| !method::find(*method).is_some_and(|row| row.fused) || view % FUSED == 0)
+        {
             // The last form is one that every driver has and gets right.
             let form = forms(device, method).into_iter().last().flatten();
             let shot = stage.shoot(&by(&scene, method), form);
@@ -121,9 +124,10 @@ fn structures_are_built_beside_the_frames(device: &Arc<Device>) {
     let checked = Checked { device: device.clone(), check, early_end: None };
     let mut runner = Runner::new(Some(&checked), scene.clone(), "jets".to_owned());
     let settings = |name| MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
-    let rule = runner.orbit(&settings(MethodName::RcErt), FRAMES, &|_| {}).expect("an orbit");
+    let rule = runner.orbit(&settings(method::RC_ERT.name()), FRAMES, &|_| {}).expect("an orbit");
     assert!(rule.frames.iter().all(|frame| frame.structure.is_none() && frame.build_ms == 0.0));
-    for (name, own) in [(MethodName::NnOptimal, "optimal"), (MethodName::NnCone, "cone"), (MethodName::NnOmni, "omni")]
+    for (name, own) in
+        [(method::NN_OPTIMAL.name(), "optimal"), (method::NN_CONE.name(), "cone"), (method::NN_OMNI.name(), "omni")]
     {
         let orbit = runner.orbit(&settings(name), FRAMES, &|_| {}).expect("an orbit");
         assert_eq!(orbit.pictures, rule.pictures, "{own}");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use depthleap::frame::bytes::bytes;
 use depthleap::frame::{GpuFrame, Measure, Resident, Structures};
-use depthleap::pass::cull::Form;
+use depthleap::part::form::Form;
 use depthleap::plan;
 use depthleap::read;
 use depthleap::scene::Scene;

@@ -5,7 +5,8 @@ use std::sync::{Arc, OnceLock};
 use depthleap::frame::{
     CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, cpu, self_check,
 };
-use depthleap::pass::cull::Form;
+use depthleap::method;
+use depthleap::part::form::Form;
 use depthleap::plan::{self, Plan};
 use depthleap::read;
 use depthleap::scene::settings::{Cull, Filter, MethodName, Settings, VolumeTexture};
@@ -61,7 +62,7 @@ pub fn by(scene: &Scene, method: MethodName) -> Scene {
 
 /// Forms of a method that the device has the features for.
 pub fn forms(device: &Device, method: MethodName) -> Vec<Option<Form>> {
-    let all = Form::all(method);
+    let all = method::forms(method);
     if all.is_empty() {
         return vec![None];
     }

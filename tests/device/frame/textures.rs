@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use depthleap::plan::{self, papers_form};
+use depthleap::method;
+use depthleap::part::rows::Method;
+use depthleap::plan;
 use depthleap::read;
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
 use depthleap::scene::settings::{Component, Distance, Filter, MethodName, Settings, VolumeTexture};
@@ -127,7 +129,7 @@ fn default_is_as_precise_as_its_plan_states(device: &Arc<Device>) {
             plain.transfer = random_transfer(&mut random);
             let mut exact = plain.clone();
             (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
-            for method in [MethodName::Rc, MethodName::NnOmni] {
+            for method in [method::RC.name(), method::NN_OMNI.name()] {
                 let form = forms(device, method).pop().flatten();
                 let shots = [&plain, &exact].map(|scene| Stage::new(device).shoot(&by(scene, method), form));
                 let (off, stated) = (largest(&shots[0], &shots[1]), shots[0].plan.pixel_error);
@@ -149,7 +151,7 @@ fn named_format_is_warned_of(device: &Arc<Device>) {
         s.volume.texture = VolumeTexture::Native;
         s.sampling.termination = 1.0;
     });
-    let scene = by(&mask, MethodName::Rc);
+    let scene = by(&mask, method::RC.name());
     let native = Stage::new(device).shoot(&scene, None);
     let mut exact = scene.clone();
     (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
@@ -187,7 +189,7 @@ fn empty_range_shows_x_zero(device: &Arc<Device>) {
     }
 }
 
-const METHODS: [MethodName; 3] = [MethodName::Rc, MethodName::RcBlock, MethodName::NnOmni];
+const METHODS: [MethodName; 3] = [method::RC.name(), method::RC_BLOCK.name(), method::NN_OMNI.name()];
 
 /// Labels in lumps, of which the middle one is rare.
 fn labels() -> Voxels {
@@ -213,7 +215,7 @@ fn nearest_is_that_of_the_twin(device: &Arc<Device>) {
             let scene = by(&seen(&scene, view), method);
             let mut stage = Stage::new(device);
             let shot = stage.shoot(&scene, forms(device, method).pop().flatten());
-            let twin = stage.twin(&scene, papers_form(method));
+            let twin = stage.twin(&scene, method::papers_form(method));
             let decided = twin.undecided.iter().filter(|undecided| !**undecided).count();
             assert!(decided > twin.undecided.len() * 9 / 10, "{}: {decided} pixels decided", view.0);
             for (i, (found, right)) in shot.picture.iter().zip(&twin.pixels).enumerate() {
@@ -226,12 +228,12 @@ fn nearest_is_that_of_the_twin(device: &Arc<Device>) {
 
 fn nothing_between_labels_shows(device: &Arc<Device>) {
     let far = || Voxels::U8(each(|i| if i % 5 < 2 { 200 } else { 0 }));
-    for method in [MethodName::Rc, MethodName::RcErt].into_iter().chain(SKIPPING) {
+    for method in [method::RC.name(), method::RC_ERT.name()].into_iter().chain(SKIPPING) {
         let scene = only_100(of(device, far(), "ramp", |s| s.sampling.filter = Filter::Nearest));
         let scene = by(&scene, method);
         let shot = Stage::new(device).shoot(&scene, forms(device, method).pop().flatten());
         assert!(shot.picture.iter().all(|pixel| *pixel == [0.0; 4]), "{}", method.name());
-        if method.distance().is_some() {
+        if method::find(method).and_then(Method::distance).is_some() {
             let main: u64 = shot.run.fragments.expect("counts").main.iter().sum();
             assert_eq!(main, 0, "{} runs main fragments for nothing", method.name());
         }
@@ -251,7 +253,7 @@ fn every_label_is_told_from_its_neighbours(device: &Arc<Device>) {
                     (s.sampling.filter, s.volume.texture) = (Filter::Nearest, texture);
                 });
                 scene.transfer = TransferFunction::new("one label", knots.clone(), 1.0).expect("a transfer function");
-                Stage::new(device).shoot(&by(&scene, MethodName::Rc), None)
+                Stage::new(device).shoot(&by(&scene, method::RC.name()), None)
             };
             let [auto, native, float] = [VolumeTexture::Auto, VolumeTexture::Native, VolumeTexture::R32f].map(shot);
             assert!(auto.picture.iter().any(|pixel| pixel[3] > 0.0), "label {label} of {most} does not show");
@@ -263,12 +265,12 @@ fn every_label_is_told_from_its_neighbours(device: &Arc<Device>) {
 }
 
 const SKIPPING: [MethodName; 6] = [
-    MethodName::RcBlock,
-    MethodName::NnOmni,
-    MethodName::NnOmniFused,
-    MethodName::NnDirectional,
-    MethodName::NnCone,
-    MethodName::NnOptimalFused,
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_OMNI_FUSED.name(),
+    method::NN_DIRECTIONAL.name(),
+    method::NN_CONE.name(),
+    method::NN_OPTIMAL_FUSED.name(),
 ];
 
 /// A scene to be made on a device, by name.
@@ -333,10 +335,14 @@ fn law(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     for view in [VIEWS[1], VIEWS[2]] {
         let scene = seen(scene, view);
-        let rule = stage.shoot(&by(&scene, MethodName::RcErt), papers_form(MethodName::RcErt));
+        let rule = stage.shoot(&by(&scene, method::RC_ERT.name()), method::papers_form(method::RC_ERT.name()));
         for method in SKIPPING {
             let all = forms(device, method);
-            let some = if method.distance() == Some(Distance::Omni) { &all[..] } else { &all[all.len() - 1..] };
+            let some = if method::find(method).and_then(Method::distance) == Some(Distance::Omni) {
+                &all[..]
+            } else {
+                &all[all.len() - 1..]
+            };
             for &form in some {
                 let name = format!("{}, {}, {}", method.name(), form.map_or_else(String::new, |f| f.name()), view.0);
                 if !super::law::trusted(device, method, form) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use depthleap::frame::CpuFrame;
-use depthleap::plan::papers_form;
+use depthleap::method;
 use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Classification, Last, MethodName, Offset, Settings};
@@ -34,8 +34,13 @@ const SCENES: [(&str, &str); 12] = [
     ("ct_vismale.nrrd", "surface"),
 ];
 
-const METHODS: [MethodName; 5] =
-    [MethodName::Rc, MethodName::RcErt, MethodName::RcBlock, MethodName::NnOmni, MethodName::NnOmniFused];
+const METHODS: [MethodName; 5] = [
+    method::RC.name(),
+    method::RC_ERT.name(),
+    method::RC_BLOCK.name(),
+    method::NN_OMNI.name(),
+    method::NN_OMNI_FUSED.name(),
+];
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
@@ -87,7 +92,7 @@ fn twin(device: &Arc<Device>, scene: &Scene) {
             // The last form of each method is the one every device has.
             let form = forms(device, method).pop().flatten();
             let name = format!("{}, {}", method.name(), view.0);
-            let twin = stage.twin(&scene, papers_form(method));
+            let twin = stage.twin(&scene, method::papers_form(method));
             let shot = stage.shoot(&scene, form);
             let undecided = twin.undecided.iter().filter(|u| **u).count();
             (open, outline) = (open + undecided as u64 - twin.outline, outline + twin.outline);
@@ -116,11 +121,11 @@ fn twin(device: &Arc<Device>, scene: &Scene) {
 /// At the size of the papers' pictures those on the outline are few too.
 fn full_size(device: &Arc<Device>) {
     let scene = seen(&scene("shells:64", "ramp", exactly), VIEWS[1]);
-    let mut scene = by(&scene, MethodName::RcErt);
+    let mut scene = by(&scene, method::RC_ERT.name());
     scene.settings.image.size = [500, 500];
-    let form = forms(device, MethodName::RcErt).pop().flatten();
+    let form = forms(device, method::RC_ERT.name()).pop().flatten();
     let mut stage = Stage::new(device);
-    let (shot, twin) = (stage.shoot(&scene, form), stage.twin(&scene, papers_form(MethodName::RcErt)));
+    let (shot, twin) = (stage.shoot(&scene, form), stage.twin(&scene, method::papers_form(method::RC_ERT.name())));
     let largest = difference(&shot.picture, &twin).unwrap_or_else(|e| panic!("{e}"));
     let open = twin.undecided.iter().filter(|u| **u).count();
     println!(
@@ -145,7 +150,7 @@ fn difference(picture: &[[f32; 4]], twin: &CpuFrame) -> Result<f64, String> {
 }
 
 fn would_see_a_shifted_sample(device: &Arc<Device>) {
-    let scene = by(&scene("shells:24", "ramp", exactly), MethodName::Rc);
+    let scene = by(&scene("shells:24", "ramp", exactly), method::RC.name());
     let mut shifted = scene.clone();
     // A ten thousandth of a step.
     shifted.settings.sampling.step += 1e-4;
@@ -163,7 +168,7 @@ fn constant_medium_is_beers_law(device: &Arc<Device>) {
         s.sampling.step = 0.7;
     });
     for view in VIEWS {
-        let scene = by(&seen(&scene, view), MethodName::Rc);
+        let scene = by(&seen(&scene, view), method::RC.name());
         let picture = Stage::new(device).shoot(&scene, None).picture;
         let exact = ExactIntegrator::new(&scene.field, &scene.transfer);
         let rays = scene.camera.rays(scene.settings.image.size).unwrap();
@@ -196,7 +201,7 @@ fn constant_medium_is_beers_law(device: &Arc<Device>) {
 fn midpoint_samples_approach_the_integral(device: &Arc<Device>) {
     let error = |step: f64| {
         let scene = scene("gaussian:16", "linear", |s| smooth(s, step));
-        integral_error(device, &by(&scene, MethodName::Rc))
+        integral_error(device, &by(&scene, method::RC.name()))
     };
     let errors = [2.0, 1.0, 0.5, 0.25].map(error);
     for pair in errors.windows(2) {

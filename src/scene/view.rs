@@ -1,39 +1,13 @@
-//! What a view asks of a plan: the box as triangles, the pixels it covers, the longest ray.
+//! A scene as its camera sees it: the box as triangles, the pixels it covers, the longest ray.
 
 use glam::DVec3;
 
+use super::Scene;
 use super::longest::longest_ray;
+use super::region::Region;
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
 use crate::math::ray::ViewRays;
-use crate::scene::Scene;
-
-/// A rectangle of pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Region {
-    pub x: u32,
-    pub y: u32,
-    pub width: u32,
-    pub height: u32,
-}
-
-impl Region {
-    pub fn pixels(self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-
-    pub fn size(self) -> [u32; 2] {
-        [self.width, self.height]
-    }
-
-    pub fn columns(self) -> std::ops::Range<u32> {
-        self.x..self.x + self.width
-    }
-
-    pub fn rows(self) -> std::ops::Range<u32> {
-        self.y..self.y + self.height
-    }
-}
 
 /// A scene as seen by its camera.
 #[derive(Clone, Debug)]
@@ -55,7 +29,7 @@ const GUARD: f64 = 2.0;
 
 impl View {
     /// # Errors
-    /// When the camera is not one (see [`crate::scene::Camera::basis`]), or single precision has no numbers for the view.
+    /// When the camera is not one (see [`super::Camera::basis`]), or single precision has no numbers for the view.
     pub fn new(scene: &Scene) -> Result<Self> {
         let size = scene.settings.image.size;
         let rays = scene.camera.rays(size)?;

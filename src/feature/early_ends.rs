@@ -1,28 +1,26 @@
-//! What a scene's rays may meet and do: from it follow the passes, structures and shader code that are left out.
+//! Ends of rays before they leave the volume.
 
-use crate::pass::Needs;
+use super::reasons::never_ends;
+use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::reference::fused::blend_rounding;
 use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
-use crate::structure::cells::all_interesting;
 
-/// What a scene whose longest ray has so many samples, in so many passes, needs of its method.
-pub fn needs(scene: &Scene, longest_samples: u32, passes: u32) -> Needs {
-    let method = &scene.settings.method;
-    if !method.planner {
-        return Needs::ALL;
+/// Rays whose opacity comes above T end there.
+pub const EARLY_ENDS: Feature =
+    Feature { without: Some("endless"), ..Feature::at(Hook::Decide, "early ends of rays", needed) };
+
+fn needed(context: &Context) -> Result<(), Why> {
+    if may_end(context) {
+        return Ok(());
     }
-    let looks_ahead = method.name.looks_ahead();
-    Needs {
-        ends: may_end(scene, longest_samples, passes),
-        skips: looks_ahead && !all_interesting(scene),
-        colors: !is_grey(&scene.transfer),
-    }
+    // A method that culls nothing ends nothing either.
+    Err(if context.form.is_some() { never_ends(context).into() } else { Why::Untold })
 }
 
-/// Whether red, green and blue are alike everywhere.
-fn is_grey(transfer: &TransferFunction) -> bool {
-    transfer.knots().iter().all(|knot| knot.color.iter().all(|c| *c == knot.color[0]))
+/// Whether the opacity of any ray may come above T.
+pub fn may_end(context: &Context) -> bool {
+    !context.plans() || comes_above(context.scene, context.view.longest_samples, context.passes)
 }
 
 /// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.
@@ -30,7 +28,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and the longest
 /// ray, rounding included.
-fn may_end(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
+fn comes_above(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
     let sampling = &scene.settings.sampling;
     // Opacities never exceed 1.
     if sampling.termination >= 1.0 {

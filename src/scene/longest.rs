@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::Region;
+use super::region::Region;
 use crate::math::ray::{ViewRays, box_interval};
 
 /// Tiles of at most so many pixels are gone through one by one.

@@ -1,0 +1,37 @@
+//! Distances to what shows [Thesis §5.3].
+
+use super::reasons::DENSE;
+use crate::part::Constant;
+use crate::part::resource::Resource;
+use crate::part::rows::{Ahead, Context, Feature, Hook, Why};
+use crate::scene::settings::Distance;
+use crate::structure::cells::all_interesting;
+
+/// Distances to the nearest interesting cell, and their look-ups.
+pub const DISTANCES: Feature = Feature {
+    without: Some("dense"),
+    constants,
+    reads: |_| vec![Resource::NearestDistance],
+    ..Feature::at(Hook::Decide, "distance structure", needed)
+};
+
+fn needed(context: &Context) -> Result<(), Why> {
+    match context.method.ahead {
+        Ahead::Nothing => Err(format!("{} does not look ahead", context.method.name).into()),
+        Ahead::Blocks => Err(format!("{} skips by blocks", context.method.name).into()),
+        Ahead::Distances(_) if context.plans() && all_interesting(context.scene) => Err(DENSE.into()),
+        Ahead::Distances(_) => Ok(()),
+    }
+}
+
+/// Of `near_neighbor.glsl`: how distances are looked up.
+fn constants(context: &Context) -> Vec<Constant> {
+    let Some(distance) = context.method.distance() else { return Vec::new() };
+    let method = &context.scene.settings.method;
+    vec![
+        ("EXIT_LOOKAHEAD", u32::from(method.exit_lookahead)),
+        ("CELL", method.cell),
+        ("LOOKUPS", method.lookups),
+        ("OCTANTS", u32::from(distance == Distance::Directional)),
+    ]
+}

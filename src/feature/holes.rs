@@ -1,0 +1,14 @@
+//! Cells that stay transparent.
+
+use crate::part::resource::Resource;
+use crate::part::rows::{Feature, Hook};
+
+/// A mask of cells that stay transparent, since a value of theirs is missing.
+pub const HOLES: Feature = Feature {
+    with: Some("holes"),
+    reads: |_| vec![Resource::Holes],
+    ..Feature::at(Hook::Sample, "hole mask", |context| match context.scene.field.holes {
+        Some(_) => Ok(()),
+        None => Err("every voxel is a number, or is replaced by one".into()),
+    })
+};

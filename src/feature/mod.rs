@@ -1,0 +1,85 @@
+//! What a frame may have and a scene may not need: [`FEATURES`] is the one list.
+//!
+//! To add one: a file here with its row, a line in [`FEATURES`] (the order of the lines of plans), its code in the shaders at
+//! its hook with its f64 twin, and a test of the scenes that need it and those that do not.
+
+mod block_ranges;
+mod colors;
+mod counting;
+mod decisions;
+mod distances;
+mod early_ends;
+mod extra_fetches;
+mod holes;
+mod interpolation;
+mod last_sample;
+mod opacity_correction;
+mod preintegration;
+mod reasons;
+mod transfer_function;
+
+pub use block_ranges::BLOCK_RANGES;
+pub use colors::COLORS;
+pub use counting::{BATCH, COUNTING};
+pub use decisions::{DECISIONS, LATER_DECISIONS, MARK_COPIES};
+pub use distances::DISTANCES;
+pub use early_ends::{EARLY_ENDS, may_end};
+pub use holes::HOLES;
+pub use opacity_correction::OPACITY_CORRECTION;
+pub use preintegration::PREINTEGRATION;
+pub use transfer_function::TRANSFER_FUNCTION;
+
+use crate::part::Constant;
+use crate::part::resource::{Access, Usage};
+use crate::part::rows::{Context, Feature, Hook};
+use extra_fetches::EXTRA_FETCHES;
+use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
+use last_sample::LAST_SAMPLE;
+
+/// Every feature, in the order in which plans say what was left out.
+pub const FEATURES: [&Feature; 17] = [
+    &DECISIONS,
+    &MARK_COPIES,
+    &LATER_DECISIONS,
+    &DISTANCES,
+    &BLOCK_RANGES,
+    &EARLY_ENDS,
+    &COLORS,
+    &HOLES,
+    &OPACITY_CORRECTION,
+    &PREINTEGRATION,
+    &LAST_SAMPLE,
+    &SHADER_INTERPOLATION,
+    &INTERPOLATION,
+    &COUNTING,
+    &TRANSFER_FUNCTION,
+    &EXTRA_FETCHES,
+    &WAY_AHEAD,
+];
+
+/// How a way is looked at that lies ahead: a sample stands for all values up to the next one, or not.
+const WAY_AHEAD: Feature = Feature {
+    constants: |context| vec![("SPANS", u32::from(context.scene.settings.sampling.spans()))],
+    ..Feature::at(Hook::Decide, "way ahead", |_| Ok(()))
+};
+
+fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {
+    FEATURES.into_iter().filter(move |feature| feature.at == hook)
+}
+
+/// The specialization constants of all features at a hook.
+pub fn constants(context: &Context, hook: Hook) -> Vec<Constant> {
+    at(hook).flat_map(|feature| (feature.constants)(context)).collect()
+}
+
+/// What shaders with a hook read of the features there are.
+pub fn reads(context: &Context, hook: Hook) -> Vec<Access> {
+    let there = at(hook).filter(|feature| context.has(feature));
+    there.flat_map(|feature| (feature.reads)(context)).map(|resource| Usage::Sampled.of(resource)).collect()
+}
+
+/// The words of the variant of a shader with a hook.
+pub fn words(context: &Context, hook: Hook) -> Vec<&'static str> {
+    let word = |feature: &'static Feature| if context.has(feature) { feature.with } else { feature.without };
+    at(hook).filter_map(word).collect()
+}

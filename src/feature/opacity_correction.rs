@@ -1,0 +1,21 @@
+//! Opacities for other lengths than the reference length.
+
+use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::scene::settings::{Alpha, Last};
+
+/// 1 - (1 - a)^(length / reference) for every sample.
+pub const OPACITY_CORRECTION: Feature = Feature {
+    constants: |context| vec![("CORRECT_OPACITY", u32::from(context.has(&OPACITY_CORRECTION)))],
+    ..Feature::at(Hook::Sample, "opacity correction", needed)
+};
+
+fn needed(context: &Context) -> Result<(), Why> {
+    let sampling = &context.scene.settings.sampling;
+    match () {
+        () if sampling.alpha == Alpha::Paper => Err("alpha = \"paper\" takes opacities as they stand".into()),
+        () if sampling.last == Last::Partial => Ok(()),
+        () if sampling.spans() => Err("the pre-integrated table is made for the step".into()),
+        () if sampling.step == context.scene.transfer.reference => Err("the step is the reference length".into()),
+        () => Ok(()),
+    }
+}

@@ -1,0 +1,14 @@
+//! Pre-integrated classification [Stegmaier05 §4].
+
+use crate::part::resource::Resource;
+use crate::part::rows::{Feature, Hook};
+
+/// A table of what the transfer function gives between two values, and its axes.
+pub const PREINTEGRATION: Feature = Feature {
+    with: Some("preintegrated"),
+    reads: |_| vec![Resource::Preintegrated, Resource::Axis],
+    ..Feature::at(Hook::Sample, "pre-integrated table", |context| match context.scene.settings.sampling.spans() {
+        true => Ok(()),
+        false => Err("samples are classified by their own value".into()),
+    })
+};

@@ -1,0 +1,23 @@
+//! The transfer function's pieces, asked for the value of each sample.
+
+use super::colors::COLORS;
+use super::preintegration::PREINTEGRATION;
+use crate::part::Constant;
+use crate::part::resource::Resource;
+use crate::part::rows::{Context, Feature, Hook, Why};
+
+/// Pieces of the transfer function in a buffer, and the search for the piece of a value.
+pub const TRANSFER_FUNCTION: Feature = Feature {
+    constants,
+    reads: |context| vec![if context.has(&COLORS) { Resource::Transfer } else { Resource::GreyTransfer }],
+    ..Feature::at(Hook::Sample, "transfer function", |context| match context.has(&PREINTEGRATION) {
+        true => Err(Why::Untold),
+        false => Ok(()),
+    })
+};
+
+/// Of `transfer.glsl`, and of `preintegrated.glsl`, whose axes go on beyond the first knot and the last.
+fn constants(context: &Context) -> Vec<Constant> {
+    let pieces = context.scene.transfer.knots().len() as u32 + u32::from(context.has(&PREINTEGRATION));
+    vec![("PIECES", pieces), ("SEARCH", pieces.next_power_of_two() / 2)]
+}

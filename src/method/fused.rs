@@ -1,0 +1,39 @@
+//! `nn-*+fused`: near-neighbor skipping, intermediate passes after the first merged into the main passes [Thesis §5.7].
+
+use super::near_neighbor::by;
+use super::rows::{begin, decided, unswitched};
+use crate::feature::{DECISIONS, EARLY_ENDS};
+use crate::part::resource::Resource;
+use crate::part::rows::{Context, Method};
+use crate::part::steps::Steps;
+use crate::pass::clear::clear;
+use crate::pass::fused::fused;
+use crate::pass::near_neighbor::near_neighbor;
+use crate::scene::settings::{Distance, Mark};
+
+const fn row(distance: Distance, name: &'static str, about: &'static str) -> Method {
+    Method { fused: true, steps, ..by(distance, name, about, "Thesis §5.7") }
+}
+
+pub const NN_OMNI_FUSED: Method =
+    row(Distance::Omni, "nn-omni+fused", "nn-omni, intermediate passes after the first merged into the main passes");
+
+pub const NN_DIRECTIONAL_FUSED: Method =
+    row(Distance::Directional, "nn-directional+fused", "nn-directional, its passes merged in the same way");
+
+pub const NN_OPTIMAL_FUSED: Method =
+    row(Distance::Optimal, "nn-optimal+fused", "nn-optimal, its passes merged in the same way");
+
+pub const NN_CONE_FUSED: Method = row(Distance::Cone, "nn-cone+fused", "nn-cone, its passes merged in the same way");
+
+/// One intermediate pass, then main passes that mark where rays go on.
+fn steps(context: &Context, steps: &mut Steps) {
+    let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
+    begin(context, steps);
+    steps.extend(context.has(&EARLY_ENDS).then(clear));
+    steps.push(near_neighbor(context, 0, form));
+    for pass in 0..context.passes {
+        decided(steps, pass, form, (form.mark == Mark::Copy).then_some(Resource::Marks));
+        steps.push(fused(context, pass, form));
+    }
+}

@@ -1,0 +1,108 @@
+//! The render methods: [`METHODS`] is the one list of them.
+//!
+//! To add one: a file here with its row, a line in [`METHODS`], its passes in `crate::pass` with their shaders and f64 twins,
+//! and the golden plan that a test over [`METHODS`] asks for.
+
+mod cpu;
+mod fused;
+mod near_neighbor;
+mod rc;
+mod rc_block;
+mod rc_ert;
+mod rows;
+
+pub use cpu::CPU;
+pub use fused::{NN_CONE_FUSED, NN_DIRECTIONAL_FUSED, NN_OMNI_FUSED, NN_OPTIMAL_FUSED};
+pub use near_neighbor::{NN_CONE, NN_DIRECTIONAL, NN_OMNI, NN_OPTIMAL};
+pub use rc::RC;
+pub use rc_block::RC_BLOCK;
+pub use rc_ert::RC_ERT;
+
+use std::str::FromStr;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use crate::error::{Error, Result};
+use crate::part::form::Form;
+use crate::part::rows::Method;
+use crate::scene::settings::MethodName;
+
+/// Every method, in the order of tables and of the help.
+pub const METHODS: [&Method; 12] = [
+    &RC,
+    &RC_ERT,
+    &RC_BLOCK,
+    &NN_OMNI,
+    &NN_DIRECTIONAL,
+    &NN_OPTIMAL,
+    &NN_CONE,
+    &NN_OMNI_FUSED,
+    &NN_DIRECTIONAL_FUSED,
+    &NN_OPTIMAL_FUSED,
+    &NN_CONE_FUSED,
+    &CPU,
+];
+
+/// The method of that name; none where there is none.
+pub fn find(name: MethodName) -> Option<&'static Method> {
+    METHODS.into_iter().find(|method| method.name == name.name())
+}
+
+/// The method of that name.
+///
+/// # Errors
+/// A name that no method has. Names are checked when they are read, so that this is a fault of the program.
+pub fn of(name: MethodName) -> Result<&'static Method> {
+    find(name).ok_or_else(|| Error::usage(format!("--method {name}"), "there is no such method", "please report this"))
+}
+
+/// The names of all methods, in their order.
+const NAMES: [&str; METHODS.len()] = {
+    let mut names = [""; METHODS.len()];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = METHODS[i].name;
+        i += 1;
+    }
+    names
+};
+
+impl<'de> Deserialize<'de> for MethodName {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        let row = METHODS.iter().find(|method| method.name == name);
+        row.map(|method| method.name()).ok_or_else(|| D::Error::unknown_variant(&name, &NAMES))
+    }
+}
+
+impl FromStr for MethodName {
+    type Err = String;
+
+    fn from_str(name: &str) -> std::result::Result<Self, String> {
+        let row = METHODS.iter().find(|method| method.name == name);
+        row.map(|method| method.name()).ok_or_else(|| format!("is not one of {}", NAMES.join(", ")))
+    }
+}
+
+/// The form that `auto` stands for where nothing is known of the device: that of the papers; none for a method that culls
+/// nothing.
+pub fn papers_form(name: MethodName) -> Option<Form> {
+    find(name).and_then(|method| method.papers)
+}
+
+/// The forms that a method has on a device; none for one that culls nothing there.
+pub fn forms(name: MethodName) -> Vec<Form> {
+    find(name).map_or_else(Vec::new, |method| (method.forms)())
+}
+
+impl Default for MethodName {
+    fn default() -> Self {
+        NN_OMNI.name()
+    }
+}
+
+/// The method with the same picture that skips nothing.
+pub fn without_skipping(method: &Method) -> &'static Method {
+    if method.ends_rays { &RC_ERT } else { &RC }
+}

@@ -1,0 +1,62 @@
+//! `nn-*`: near-neighbor skipping [Thesis §5.3, §5.3.1, §5.7].
+
+use super::rows::{BOUNDS, RAY_CASTER, begin, culled_forms, decided, unswitched};
+use crate::feature::{DECISIONS, EARLY_ENDS};
+use crate::part::rows::{Ahead, Context, Method};
+use crate::part::steps::Steps;
+use crate::pass::clear::clear;
+use crate::pass::main_pass::main_pass;
+use crate::pass::near_neighbor::near_neighbor;
+use crate::reference::section::section_end;
+use crate::scene::settings::Distance;
+
+/// A row of near-neighbor skipping by a kind of distance.
+pub(super) const fn by(distance: Distance, name: &'static str, about: &'static str, source: &'static str) -> Method {
+    Method {
+        name,
+        about,
+        source,
+        papers: BOUNDS,
+        forms: culled_forms,
+        ahead: Ahead::Distances(distance),
+        steps,
+        ..RAY_CASTER
+    }
+}
+
+pub const NN_OMNI: Method =
+    by(Distance::Omni, "nn-omni", "Near-neighbor skipping, distance in any direction", "Thesis §5.3");
+
+pub const NN_DIRECTIONAL: Method = by(
+    Distance::Directional,
+    "nn-directional",
+    "Near-neighbor skipping, distance within the octant of the fragment's ray",
+    "Thesis §5.3.1",
+);
+
+pub const NN_OPTIMAL: Method = by(
+    Distance::Optimal,
+    "nn-optimal",
+    "Near-neighbor skipping, distance along the rays of this view",
+    "Thesis §5.3.1",
+);
+
+pub const NN_CONE: Method = by(
+    Distance::Cone,
+    "nn-cone",
+    "Near-neighbor skipping, distance within a cone around this view's rays, good for cameras nearby",
+    "Thesis §5.7",
+);
+
+/// An intermediate pass before each main pass, both for rays whose section begins at or before it.
+fn steps(context: &Context, steps: &mut Steps) {
+    let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
+    begin(context, steps);
+    steps.extend(context.has(&EARLY_ENDS).then(clear));
+    for pass in 0..context.passes {
+        steps.push(near_neighbor(context, pass, form));
+        decided(steps, pass, form, None);
+        let end = section_end(pass, context.passes) as f32;
+        steps.push(main_pass(context, pass, Some((form.cull, end))));
+    }
+}

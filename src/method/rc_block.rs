@@ -1,0 +1,19 @@
+//! `rc-block`: `rc-ert` with skipping of empty 8^3 blocks [KW03 §2.3].
+
+use super::rows::{RAY_CASTER, switched};
+use crate::feature::BLOCK_RANGES;
+use crate::part::rows::{Ahead, Method};
+use crate::pass::block_skip::block_skip;
+use crate::pass::termination::termination;
+
+pub const RC_BLOCK: Method = Method {
+    name: "rc-block",
+    about: "rc-ert with skipping of empty 8^3 blocks",
+    source: "KW03 §2.3",
+    ahead: Ahead::Blocks,
+    steps: |context, steps| match context.has(&BLOCK_RANGES) {
+        true => switched(context, steps, u32::from(!context.scene.settings.method.block_first), block_skip),
+        false => switched(context, steps, 1, termination),
+    },
+    ..RAY_CASTER
+};

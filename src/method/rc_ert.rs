@@ -1,0 +1,13 @@
+//! `rc-ert`: ray casting with early ray termination by early z [KW03 §2.1].
+
+use super::rows::{RAY_CASTER, switched};
+use crate::part::rows::Method;
+use crate::pass::termination::termination;
+
+pub const RC_ERT: Method = Method {
+    name: "rc-ert",
+    about: "Ray casting with early ray termination by early z",
+    source: "KW03 §2.1",
+    steps: |context, steps| switched(context, steps, 1, termination),
+    ..RAY_CASTER
+};

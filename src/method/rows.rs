@@ -1,0 +1,96 @@
+//! What rows of methods have in common, and the orders of passes that several share.
+
+use crate::feature::{BATCH, DECISIONS, EARLY_ENDS};
+use crate::part::Step;
+use crate::part::form::Form;
+use crate::part::resource::Resource;
+use crate::part::rows::{Ahead, Context, Method};
+use crate::part::steps::Steps;
+use crate::pass::{alive, clear, direction, entry, main_pass, mark_copy};
+use crate::scene::settings::{Cull, Mark};
+
+/// Steps before the first main pass, with one to spare.
+const STEPS_BEFORE: usize = 4;
+
+/// The bound of main passes that are switched on and off only: rays that go on hold 0, others 0.5 or 1.
+const SWITCH: f32 = 0.25;
+
+/// The papers' form of the ray casters: the early z-test, and depth written by the shader [KW03 §2.1].
+pub const EARLY_Z: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Fragdepth });
+
+/// The papers' form of near-neighbor skipping [Thesis §5.3].
+pub const BOUNDS: Option<Form> = Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth });
+
+/// A ray caster on a device that takes every scene, ends rays and knows nothing of what lies ahead.
+pub const RAY_CASTER: Method = Method {
+    name: "",
+    about: "",
+    source: "",
+    takes: |_| Ok(()),
+    papers: EARLY_Z,
+    forms: every_form,
+    ends_rays: true,
+    on_device: true,
+    ahead: Ahead::Nothing,
+    fused: false,
+    steps: unswitched,
+};
+
+/// Every way to cull with every way to mark.
+pub fn every_form() -> Vec<Form> {
+    let culls = [Cull::Bounds, Cull::Ztest, Cull::Discard];
+    let marks = [Mark::Fragdepth, Mark::FragdepthAny, Mark::Copy];
+    culls.into_iter().flat_map(|cull| marks.map(|mark| Form { cull, mark })).collect()
+}
+
+/// The forms in which an intermediate pass can be culled: by the bounds test, or with marks that are copied.
+pub fn culled_forms() -> Vec<Form> {
+    let mut forms = every_form();
+    forms.retain(|form| form.cull == Cull::Bounds || form.mark == Mark::Copy);
+    forms
+}
+
+/// ENTRY and DIR, which every ray caster begins with, after room was made for its passes.
+pub fn begin(context: &Context, steps: &mut Steps) {
+    let decides = context.form.is_some() && !context.method.fused;
+    let copies = context.form.is_some_and(|form| form.mark == Mark::Copy);
+    let a_pass = 1 + usize::from(decides) + usize::from(copies);
+    steps.reserve(a_pass * context.passes as usize + (context.passes / BATCH) as usize + STEPS_BEFORE);
+    steps.push(entry::entry());
+    steps.push(direction::direction());
+}
+
+/// Main passes that run for every fragment.
+pub fn unswitched(context: &Context, steps: &mut Steps) {
+    begin(context, steps);
+    steps.extend((0..context.passes).map(|pass| main_pass::main_pass(context, pass, None)));
+}
+
+/// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
+pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Context, u32, Form) -> Step) {
+    let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
+    begin(context, steps);
+    if first == 0 && context.has(&EARLY_ENDS) {
+        steps.push(clear::clear());
+    }
+    for pass in 0..context.passes {
+        let mut culled: Option<(Cull, f32)> = None;
+        if pass >= first {
+            steps.push(decide(context, pass, form));
+            decided(steps, pass, form, None);
+            culled = Some((form.cull, SWITCH));
+        }
+        steps.push(main_pass::main_pass(context, pass, culled));
+    }
+}
+
+/// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
+/// count of rays left, with a target `beside` it.
+pub fn decided(steps: &mut Steps, pass: u32, form: Form, beside: Option<Resource>) {
+    if form.mark == Mark::Copy {
+        steps.push(mark_copy::mark_copy(pass));
+    }
+    if pass > 0 && pass.is_multiple_of(BATCH) {
+        steps.push(alive::alive(pass, beside));
+    }
+}

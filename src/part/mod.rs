@@ -1,0 +1,170 @@
+//! What frames are made of: the types of steps, resources, methods and features, and the context that their rows are asked in.
+//!
+//! A pass file makes [`Step`]s; a method puts them in order; [`crate::plan`] asks it; [`crate::frame`] runs the list.
+
+pub mod form;
+pub mod resource;
+pub mod rows;
+pub mod steps;
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::reference::TwinPass;
+use crate::shared::Slice;
+use resource::{Access, Resource};
+
+/// One line of a plan: a pass with everything it needs to run.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Shows in plans, captures, validation messages and reports: `main_pass #3`.
+    pub name: String,
+    /// The row its time and its fragments count for.
+    pub group: Group,
+    /// The main pass this step is, or decides about.
+    pub pass: u32,
+    /// What it reads and writes; layouts, barriers, load and store ops follow from it.
+    pub accesses: Arc<Vec<Access>>,
+    pub work: Work,
+}
+
+impl Step {
+    /// A step that draws.
+    pub fn drawn(name: String, group: Group, pass: u32, accesses: Vec<Access>, draw: Draw) -> Self {
+        Self { name, group, pass, accesses: accesses.into(), work: Work::Draw(draw) }
+    }
+
+    /// The pass without its number: `main_pass`.
+    pub fn pass_name(&self) -> &str {
+        self.name.split(' ').next().unwrap_or(&self.name)
+    }
+}
+
+/// What a step's time and fragments count for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Group {
+    /// Once a frame, before the first main pass.
+    Setup,
+    Main,
+    Intermediate,
+    /// Marks to the depth buffer.
+    Copy,
+    /// Counting the rays that are left.
+    Alive,
+    /// Structures, built on the compute queue before the frame.
+    Structure,
+}
+
+impl Group {
+    pub const ALL: [Self; 6] = [Self::Structure, Self::Setup, Self::Main, Self::Intermediate, Self::Copy, Self::Alive];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Structure => "structure",
+            Self::Setup => "setup",
+            Self::Main => "main",
+            Self::Intermediate => "intermediate",
+            Self::Copy => "copy",
+            Self::Alive => "alive",
+        }
+    }
+}
+
+#[derive(Clone, Debug)]
+pub enum Work {
+    Draw(Draw),
+    /// Colour image to depth image, by way of a buffer.
+    Copy {
+        from: Resource,
+        by: Resource,
+        to: Resource,
+    },
+    /// To transparent black.
+    Clear(Resource),
+    Dispatch(Dispatch),
+    /// Distances, packed into bytes, to the texture that frames read.
+    Unpack {
+        from: Resource,
+        to: Resource,
+    },
+}
+
+/// A specialization constant: its name and its value, a number of any type as its 32 bits.
+pub type Constant = (&'static str, u32);
+
+/// A compute step of a structure's build, run in slices.
+#[derive(Clone, Debug)]
+pub struct Dispatch {
+    /// Compute shader, with its variant.
+    pub shader: String,
+    /// Specialization constants, by name.
+    pub constants: Vec<Constant>,
+    /// What is bound, by the names in the shader.
+    pub bound: Vec<(&'static str, Resource)>,
+    /// All of it: `first` is 0, `end` the number of invocations.
+    pub slice: Slice,
+    /// Cells an invocation goes through: what a slice costs.
+    pub cells: u32,
+}
+
+/// Drawing the volume's box.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    pub faces: Faces,
+    /// The depth the box is drawn at, to the bit.
+    pub depth: f32,
+    /// The greatest stored depth with which a fragment takes part, where the step is culled.
+    pub bound: f32,
+    pub test: DepthTest,
+    /// Fragment shader, with its variant; none where only the count matters.
+    pub shader: Option<Arc<str>>,
+    /// Specialization constants, by name.
+    pub constants: Arc<Vec<Constant>>,
+    /// Put under what is there [KW03 §1.1], rather than replacing it.
+    pub blend: bool,
+    /// The same in f64; none where a pixel is not changed.
+    pub twin: Option<TwinPass>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Faces {
+    /// Where rays enter, with the cap of the near plane.
+    Front,
+    Back,
+}
+
+/// The depth tests of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct DepthTest {
+    /// None: the step has no depth attachment.
+    pub compare: Option<vk::CompareOp>,
+    pub write: bool,
+    /// Depth bounds test [0, bound].
+    pub bounds: bool,
+}
+
+impl DepthTest {
+    pub const NONE: Self = Self { compare: None, write: false, bounds: false };
+}
+
+impl Draw {
+    /// A step that draws `faces` with a shader and no depth.
+    pub fn plain(faces: Faces, shader: &str, twin: TwinPass) -> Self {
+        Self {
+            faces,
+            depth: 1.0,
+            bound: 1.0,
+            test: DepthTest::NONE,
+            shader: Some(shader.into()),
+            constants: Arc::default(),
+            blend: false,
+            twin: Some(twin),
+        }
+    }
+
+    /// Adds specialization constants.
+    pub fn specialize(&mut self, constants: impl IntoIterator<Item = Constant>) {
+        Arc::make_mut(&mut self.constants).extend(constants);
+    }
+}
