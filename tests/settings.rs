@@ -155,8 +155,8 @@ fn inside(allowed: Allowed) -> Vec<f64> {
 
 /// Numbers just beyond what is allowed; `whole` where the setting takes whole numbers.
 fn outside(allowed: Allowed, whole: bool) -> Vec<f64> {
-    let (below, above): (fn(f64) -> f64, fn(f64) -> f64) =
-        if whole { (|n| n - 1.0, |n| n + 1.0) } else { (f64::next_down, f64::next_up) };
+    let below = |n: f64| if whole { n - 1.0 } else { n.next_down() };
+    let above = |n: f64| if whole { n + 1.0 } else { n.next_up() };
     let mut numbers = match allowed {
         Allowed::FromTo(low, high) => vec![below(low), above(high)],
         Allowed::Between(low, high) => vec![low, high],

@@ -12,7 +12,7 @@ const DISTANCE: f64 = 1.91;
 const COORDINATES: Limits = Limits::new(Allowed::Finite, "three finite numbers");
 
 section! {
-    /// The camera; the default looks along -z at the whole volume (a front face of 428 of 500 pixels, the thesis').
+    /// The camera; the default looks along -z at the whole volume.
     #[serde(expecting = "the section [camera]")]
     #[command(next_help_heading = "View")]
     CameraSettings, CameraOptions, "camera";
@@ -44,7 +44,10 @@ section! {
         #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "eye")]
         pub elevation: Option<f64>,
         /// Eye on a sphere about 0,0,0 instead of --eye: its distance from there, in longest sides of the volume
-        #[arg(long, value_name = "SIDES", allow_negative_numbers = true, conflicts_with = "eye", help = help_of_distance())]
+        #[arg(
+            long, value_name = "SIDES", allow_negative_numbers = true, conflicts_with = "eye",
+            help = help_of_distance()
+        )]
         pub distance: Option<f64>,
     }
 }

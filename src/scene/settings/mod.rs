@@ -1,8 +1,8 @@
 //! The settings of a run: the scene file's sections and keys, each with its default. A run is repeated from
 //! these alone.
 //!
-//! **How to add a setting**: one entry in its section's file. [`section!`](section::section) makes of it the key, its
-//! default, the option on the command line with its help, and the check.
+//! **How to add a setting**: one entry in its section's file. The macro of `section.rs`, which tells the form of an
+//! entry, makes of it the key, its default, the option on the command line with its help, and the check.
 //!
 //! **How to add a section**: one file as the others, its `mod` line here, and its row in `sections!` at the end of this
 //! file: key, settings, options.

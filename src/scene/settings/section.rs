@@ -29,7 +29,7 @@
 /// }
 /// ```
 ///
-/// Documentation has no full stop at its end, as clap wants it. The default and the range are put behind it in the help.
+/// In the help, default and range are put behind the documentation, which has no full stop at its end.
 macro_rules! section {
     (
         $(#[doc = $about:literal])*
@@ -108,7 +108,9 @@ macro_rules! section {
             pub(super) fn check(&self) -> $crate::error::Result<()> {
                 #[allow(unused, reason = "not every section has a check")]
                 let refuse = |id: &str, wrong: Option<$crate::scene::limits::Wrong>| match wrong {
-                    Some(wrong) => Self::keys().iter().find(|key| key.id == id).map_or(Ok(()), |key| Err(key.error(wrong))),
+                    Some(wrong) => {
+                        Self::keys().iter().find(|key| key.id == id).map_or(Ok(()), |key| Err(key.error(wrong)))
+                    }
                     None => Ok(()),
                 };
                 $(

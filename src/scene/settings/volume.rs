@@ -80,7 +80,8 @@ section! {
         within Limits::new(Allowed::AtLeast(-1.0), "a number of bytes, or -1 for all that the voxels leave over"),
         default RAW_SKIP;
 
-    /// Value shown of voxels that have several (colours, vectors): a number from 0, luminance (of Rec. 709) or magnitude
+    /// Value shown of voxels that have several (colours, vectors): a number from 0, luminance (of Rec. 709) or
+    /// magnitude
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "0..N|luminance|magnitude", allow_negative_numbers = true)]
     component?: Component;
@@ -98,8 +99,8 @@ section! {
     #[arg(long, value_name = "FORMAT")]
     texture: VolumeTexture = VolumeTexture::default();
 
-    /// How far an interpolated value may be off, as a part of the scalar range: --texture auto takes the smallest format
-    /// that the device interpolates as precisely
+    /// How far an interpolated value may be off, as a part of the scalar range: --texture auto takes the smallest
+    /// format that the device interpolates as precisely
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     precision: f64 = DEFAULT_PRECISION, within Limits::from_to(1e-9, 1.0, "a part of the scalar range {}");
 }
