@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{MethodOptions, SceneOptions, is_scene_file, method_parser, scene_name};
+use super::options::{SceneOptions, is_scene_file, method_parser, scene_name};
 use super::output::{Progress, settings_in, write_json};
 use crate::error::{Error, Result};
 use crate::measure::accuracy::{
@@ -61,8 +61,6 @@ pub struct Accuracy {
     repeats: usize,
     #[command(flatten)]
     scene_options: SceneOptions,
-    #[command(flatten)]
-    method_options: MethodOptions,
     #[command(flatten)]
     device: DeviceOptions,
 }
@@ -204,12 +202,11 @@ impl Accuracy {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
-        self.method_options.apply(&mut settings);
         let of_a_file = self.scene.as_deref().is_some_and(is_scene_file);
-        if self.scene_options.viewport.is_none() && !of_a_file {
+        if self.scene_options.given.image.size.is_none() && !of_a_file {
             settings.image.size = [SIDE; 2];
         }
-        if self.scene_options.termination.is_none() && !of_a_file {
+        if self.scene_options.given.sampling.termination.is_none() && !of_a_file {
             settings.sampling.termination = TERMINATION;
         }
         if self.method.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
@@ -219,7 +216,7 @@ impl Accuracy {
         for step in &self.steps {
             let mut stepped = settings.clone();
             with_step(&mut stepped, &settings, *step);
-            read::check(&stepped)?;
+            stepped.check()?;
         }
         let scene = read::scene(&settings)?;
         let checked = self.device.open()?;

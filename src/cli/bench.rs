@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::open::DeviceOptions;
-use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, method_parser, scene_name};
+use super::options::{BENCH_METHODS, SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::frame::Verdict;
@@ -74,8 +74,6 @@ pub struct Bench {
     #[command(flatten)]
     scene_options: SceneOptions,
     #[command(flatten)]
-    method_options: MethodOptions,
-    #[command(flatten)]
     device: DeviceOptions,
 }
 
@@ -96,11 +94,7 @@ const BUILT_IN: [&str; 3] = ["builtin:shells:96", "builtin:jets:128", "builtin:b
 impl Bench {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
-        let settings = |name: &OsString| -> Result<Settings> {
-            let mut settings = self.scene_options.settings(Some(name))?;
-            self.method_options.apply(&mut settings);
-            Ok(settings)
-        };
+        let settings = |name: &OsString| self.scene_options.settings(Some(name));
         if let Some(cell) = self.cells.iter().find(|cell| !CELLS.contains(cell)) {
             return Err(Error::usage("--cells", format!("has {cell}"), "give some of 1, 2, 4 and 8 voxels"));
         }

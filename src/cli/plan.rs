@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, Serializer};
 
-use super::options::{MethodOptions, SceneOptions, method_parser, scene_name};
+use super::options::{SceneOptions, method_parser, scene_name};
 use super::output;
 use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
@@ -40,8 +40,6 @@ pub struct Plan {
     json: Option<PathBuf>,
     #[command(flatten)]
     scene_options: SceneOptions,
-    #[command(flatten)]
-    method_options: MethodOptions,
 }
 
 #[derive(Serialize)]
@@ -111,7 +109,6 @@ impl Plan {
         let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
         output::check(&outputs)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
-        self.method_options.apply(&mut settings);
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let scene = read::scene(&settings)?;
         let form = plan::form(&scene, method::papers_form(settings.method.name))?;

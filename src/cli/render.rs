@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{MethodOptions, SceneOptions, method_parser, scene_name};
+use super::options::{SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
 use crate::measure::picture::Format;
@@ -57,8 +57,6 @@ pub struct Render {
     #[command(flatten)]
     scene_options: SceneOptions,
     #[command(flatten)]
-    method_options: MethodOptions,
-    #[command(flatten)]
     device: DeviceOptions,
 }
 
@@ -75,7 +73,6 @@ impl Render {
             }
             None => self.scene_options.settings(self.scene.as_deref())?,
         };
-        self.method_options.apply(&mut settings);
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let Measured { run, picture, .. } = self.measure(&settings)?;
         picture.write(&self.output, settings.image.background)?;

@@ -21,7 +21,7 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 pub use raw::{ByteSkip, RawLayout};
-pub use scene::{check, scene, scene_of, settings, settings_from_json};
+pub use scene::{scene, scene_of, settings, settings_from_json};
 pub use transfer::transfer;
 
 use self::packed::{Members, Packing};

@@ -7,25 +7,13 @@ use serde_json::Value;
 
 use super::{ByteSkip, Choice, RawLayout};
 use crate::error::{Error, Result};
-use crate::scene::range::RangeEnd;
-use crate::scene::settings::{CELLS, CONES, EXTRA_FETCHES, Endian, LOOKUPS, PRECISIONS, Settings, VolumeSettings};
-use crate::scene::transfer::REFERENCES;
+use crate::scene::settings::{Endian, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
 use crate::scene::{Camera, Field, Scene, TextureUnit, Volume, builtin};
-
-/// The volume of a scene that names none.
-const DEFAULT_VOLUME: &str = "shells:64";
-
-/// Steps that are neither below what single precision resolves nor longer than any volume, in voxels.
-const STEPS: std::ops::RangeInclusive<f64> = 1e-4..=1e6;
-/// The most samples of a pass, and the most passes.
-const MAX_COUNT: u32 = 65536;
-/// The longest side of an image, in pixels.
-const MAX_SIDE: u32 = 65535;
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
 /// # Errors
-/// When the file cannot be read, is no TOML, or has a wrong key or value; line and nearest known key are named.
+/// When the file cannot be read, is not TOML, or has a wrong key or value; line and nearest known key are named.
 pub fn settings(path: &Path) -> Result<Settings> {
     let text = super::text(path)?;
     let mut settings: Settings = toml::from_str(&text).map_err(|e| {
@@ -108,7 +96,7 @@ pub fn scene(settings: &Settings) -> Result<Scene> {
 /// # Errors
 /// As [`scene`].
 pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Volume>) -> Result<Scene> {
-    check(settings)?;
+    settings.check()?;
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
@@ -116,109 +104,6 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let camera = camera.in_axes_of(volume.turn);
     let field = Field::of(volume, &settings.volume.normalisation())?;
     Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
-}
-
-/// Whether every number of the settings lies in its range, before any file is read.
-///
-/// # Errors
-/// When one does not, by its key and its option.
-pub fn check(settings: &Settings) -> Result<()> {
-    let sampling = &settings.sampling;
-    let check = |good: bool, key: &str, value: String, remedy: String| {
-        if good { Ok(()) } else { Err(Error::usage(key, format!("is {value}"), remedy)) }
-    };
-    check(
-        STEPS.contains(&sampling.step),
-        "sampling.step (--step)",
-        sampling.step.to_string(),
-        format!("give a number of voxels from {} to {}", STEPS.start(), STEPS.end()),
-    )?;
-    check(
-        (1..=MAX_COUNT).contains(&sampling.samples_per_pass),
-        "sampling.samples_per_pass (--samples-per-pass)",
-        sampling.samples_per_pass.to_string(),
-        format!("give a number from 1 to {MAX_COUNT}"),
-    )?;
-    check(
-        sampling.passes <= MAX_COUNT,
-        "sampling.passes (--passes)",
-        sampling.passes.to_string(),
-        format!("give a number up to {MAX_COUNT}, or 0 for as many as the view needs"),
-    )?;
-    check(
-        (0.0..=1.0).contains(&sampling.termination),
-        "sampling.termination (--termination)",
-        sampling.termination.to_string(),
-        "give an opacity from 0 to 1 (1 ends no ray early)".into(),
-    )?;
-    check(
-        settings.image.size.iter().all(|n| (1..=MAX_SIDE).contains(n)),
-        "image.size (--viewport)",
-        format!("{:?}", settings.image.size),
-        format!("give width and height from 1 to {MAX_SIDE} pixels"),
-    )?;
-    check(
-        settings.image.background.iter().all(|c| (0.0..=1.0).contains(c)),
-        "image.background (--background)",
-        format!("{:?}", settings.image.background),
-        "give red, green and blue from 0 to 1".into(),
-    )?;
-    let reference = settings.transfer.reference;
-    check(
-        REFERENCES.contains(&reference),
-        "transfer.reference (--reference)",
-        reference.to_string(),
-        format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end()),
-    )?;
-    check(
-        EXTRA_FETCHES.contains(&settings.sampling.extra_fetches),
-        "sampling.extra_fetches (--extra-fetches)",
-        settings.sampling.extra_fetches.to_string(),
-        format!("give a number from {} to {}", EXTRA_FETCHES.start(), EXTRA_FETCHES.end()),
-    )?;
-    let method = &settings.method;
-    check(
-        CELLS.contains(&method.cell),
-        "method.cell (--cell)",
-        method.cell.to_string(),
-        "give 1, 2, 4 or 8 voxels".into(),
-    )?;
-    check(
-        CONES.contains(&method.cone),
-        "method.cone (--cone)",
-        method.cone.to_string(),
-        format!("give a half-angle from {} to {} degrees", CONES.start(), CONES.end()),
-    )?;
-    check(
-        LOOKUPS.contains(&method.lookups),
-        "method.lookups (--lookups)",
-        method.lookups.to_string(),
-        format!("give a number from {} to {}", LOOKUPS.start(), LOOKUPS.end()),
-    )?;
-    check_volume(&settings.volume)
-}
-
-fn check_volume(volume: &VolumeSettings) -> Result<()> {
-    let upside_down = |range: &[RangeEnd; 2]| match *range {
-        [RangeEnd::Value(low), RangeEnd::Value(high)] | [RangeEnd::Percentile(low), RangeEnd::Percentile(high)] => {
-            low > high
-        }
-        _ => false,
-    };
-    let shown = |range: &[RangeEnd; 2]| format!("is [{}]", range.map(|end| end.to_string()).join(", "));
-    if let Some(range) = volume.range.filter(|range| !range.iter().all(|end| end.is_sound()) || upside_down(range)) {
-        let remedy = "give two finite numbers or percentages from 0% to 100%, the low one first";
-        return Err(Error::usage("volume.range (--range)", shown(&range), remedy));
-    }
-    if let Some(value) = volume.no_data.iter().find(|value| !value.is_finite()) {
-        let remedy = "give finite numbers; NaN and infinities stand for no value anyway";
-        return Err(Error::usage("volume.no_data (--no-data)", format!("has {value}"), remedy));
-    }
-    if !PRECISIONS.contains(&volume.precision) {
-        let remedy = format!("give a part of the scalar range from {:e} to {}", PRECISIONS.start(), PRECISIONS.end());
-        return Err(Error::usage("volume.precision (--precision)", format!("is {}", volume.precision), remedy));
-    }
-    Ok(())
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {
@@ -236,7 +121,7 @@ fn volume(settings: &VolumeSettings) -> Result<Volume> {
             Err(Error::usage("volume", "has dims and type but no path", "give the path of a raw file, or remove them"))
         }
         (None, name) => {
-            let name = name.as_deref().unwrap_or(DEFAULT_VOLUME);
+            let name = name.as_deref().unwrap_or(builtin::DEFAULT);
             choice.not_of(name, "built-in voxels")?;
             builtin::volume(name)
         }
@@ -255,11 +140,8 @@ fn raw_layout(settings: &VolumeSettings) -> Result<Option<RawLayout>> {
         let problem = format!("has some of dims, type, spacing, endian and skip, but not {missing}");
         return Err(Error::usage("volume", problem, format!("add {missing} (raw files), or remove the others")));
     };
-    let skip = skip.unwrap_or(0);
-    let Some(skip) = ByteSkip::of(skip) else {
-        let remedy = "give a number of bytes, or -1 for all that the voxels leave over";
-        return Err(Error::usage("volume.skip (--skip)", format!("is {skip}"), remedy));
-    };
-    let big_endian = *endian == Some(Endian::Big);
-    Ok(Some(RawLayout { dims, voxel_type, spacing: spacing.unwrap_or([1.0; 3]), big_endian, skip }))
+    // The settings were checked: -1 is their only negative number.
+    let skip = u64::try_from(skip.unwrap_or(RAW_SKIP)).map_or(ByteSkip::ToTail, ByteSkip::Bytes);
+    let big_endian = endian.unwrap_or_default() == Endian::Big;
+    Ok(Some(RawLayout { dims, voxel_type, spacing: spacing.unwrap_or(RAW_SPACING), big_endian, skip }))
 }

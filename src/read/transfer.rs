@@ -6,10 +6,7 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::scene::builtin::nearest;
 use crate::scene::settings::TransferSettings;
-use crate::scene::transfer::{Knot, PRESETS, TransferFunction};
-
-/// Where nothing is said.
-const DEFAULT_PRESET: &str = "ramp";
+use crate::scene::transfer::{DEFAULT_PRESET, Knot, PRESETS, TransferFunction};
 
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -13,6 +13,9 @@ use crate::error::{Error, Result};
 
 /// Voxels along a side where a specification names none.
 pub const DEFAULT_SIZE: usize = 64;
+
+/// The volume of a scene that names none.
+pub const DEFAULT: &str = "shells:64";
 /// The longest side.
 pub const MAX_SIZE: usize = 2048;
 /// The most voxels of one volume, 1024^3: a field of 4 GiB.

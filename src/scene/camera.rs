@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::limits::{Allowed, Limits};
 use crate::error::{Error, Result};
 use crate::math::ray::ViewRays;
 
@@ -9,13 +10,16 @@ use crate::math::ray::ViewRays;
 /// miss nothing one could see, far enough from 0 that clip space can divide by it.
 pub const NEAR: f64 = 1e-4;
 
+/// Vertical fields of view, in degrees.
+pub const FIELDS_OF_VIEW: Limits = Limits::new(Allowed::Between(0.0, 180.0), "a vertical field of view {} degrees");
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Positions in volume space.
     pub eye: DVec3,
     pub target: DVec3,
     pub up: DVec3,
-    /// Vertical field of view in degrees, above 0 and below 180.
+    /// Vertical field of view, one of [`FIELDS_OF_VIEW`].
     pub fov_y: f64,
 }
 
@@ -61,8 +65,8 @@ impl Camera {
         if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
             return bad("has a coordinate that is not finite".into(), "give finite numbers for eye, target and up");
         }
-        if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
-            return bad(format!("has a field of view of {} degrees", self.fov_y), "choose one above 0 and below 180");
+        if !FIELDS_OF_VIEW.contains(self.fov_y) {
+            return bad(format!("has a field of view of {} degrees", self.fov_y), &FIELDS_OF_VIEW.remedy());
         }
         let Some(forward) = (self.target - self.eye).try_normalize() else {
             return bad(format!("eye and target are both at {}", self.eye), "move one of them");

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod field;
 pub(crate) mod file_name;
 mod fixed;
+pub mod limits;
 pub mod longest;
 pub mod method;
 pub mod range;

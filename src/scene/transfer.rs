@@ -1,5 +1,6 @@
 //! Transfer functions: piecewise linear colour and opacity over the scalar range.
 
+use super::limits::Limits;
 use crate::error::{Error, Result};
 
 /// One point of a transfer function. The same `x` twice is a jump, and the later point counts there.
@@ -23,13 +24,16 @@ pub struct TransferFunction {
 }
 
 /// Reference lengths whose ratio to a step survives single precision, in voxels.
-pub const REFERENCES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+pub const REFERENCES: Limits = Limits::from_to(1e-6, 1e6, "a number of voxels {}");
 
 /// Places and colours beyond this do not survive the arithmetic of single precision.
 const LARGEST: f64 = 1e30;
 
 /// Names of the built-in transfer functions.
 pub const PRESETS: [&str; 4] = ["ramp", "surface", "haze", "linear"];
+
+/// The transfer function of a scene that names none.
+pub const DEFAULT_PRESET: &str = PRESETS[0];
 
 impl TransferFunction {
     /// # Errors
@@ -42,9 +46,8 @@ impl TransferFunction {
         if knots.is_empty() {
             return bad("has no points".into(), "give at least one, [x, r, g, b, opacity]");
         }
-        if !REFERENCES.contains(&reference) {
-            let remedy = format!("give a number of voxels from {} to {}", REFERENCES.start(), REFERENCES.end());
-            return bad(format!("has the reference length {reference}"), &remedy);
+        if !REFERENCES.contains(reference) {
+            return bad(format!("has the reference length {reference}"), &REFERENCES.remedy());
         }
         for (i, knot) in knots.iter().enumerate() {
             if !(knot.x.abs() <= LARGEST && knot.color.iter().all(|c| (0.0..=LARGEST).contains(c))) {

@@ -59,7 +59,7 @@ fn read_damaged(seed: u64, name: &str, text: &str, read: impl Fn(&Path) -> Resul
 fn scene_files() {
     read_damaged(2, "a.toml", SCENE, |path| {
         let settings = read::settings(path)?;
-        let _ = read::check(&settings).map_err(|error| is_fit(&error, ""));
+        let _ = settings.check().map_err(|error| is_fit(&error, ""));
         Ok(())
     });
 }
@@ -70,7 +70,7 @@ fn settings_in_json() {
     let whole = serde_json::json!({ "runs": [{ "method": "nn-omni", "settings": settings }] }).to_string();
     read_damaged(3, "a.json", &whole, |path| {
         let settings = read::settings_from_json(path)?;
-        let _ = read::check(&settings).map_err(|error| is_fit(&error, ""));
+        let _ = settings.check().map_err(|error| is_fit(&error, ""));
         Ok(())
     });
 }

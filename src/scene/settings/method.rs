@@ -1,0 +1,80 @@
+//! `[method]`: which passes, and how fragments are culled and marked.
+
+use serde::{Deserialize, Serialize};
+
+use super::section::section;
+use crate::scene::limits::{Allowed, Limits};
+use crate::scene::method::{Cull, DepthFormat, Mark, MethodName};
+
+/// Sides a cell of a distance structure may have.
+pub const CELLS: [u32; 4] = [1, 2, 4, 8];
+
+section! {
+    /// Which passes, and how fragments are culled and marked.
+    #[serde(expecting = "the section [method]")]
+    #[command(next_help_heading = "Method")]
+    MethodSettings, MethodOptions, "method";
+
+    /// The render method
+    #[arg(skip)]
+    name: MethodName = MethodName::default();
+
+    /// How fragments are culled
+    #[arg(long, value_name = "TEST")]
+    cull: Cull = Cull::Auto;
+
+    /// How the intermediate pass stores its decision
+    #[arg(long, value_name = "WAY")]
+    mark: Mark = Mark::Auto;
+
+    /// Format of the depth buffer, in which passes are told apart
+    #[arg(long = "depth-format", value_name = "FORMAT")]
+    depth: DepthFormat = DepthFormat::D32;
+
+    /// Mark a ray as gone as soon as its next section lies beyond its end
+    #[arg(
+        long = "no-exit-lookahead", num_args = 0, default_missing_value = "false",
+        help = "nn-*: notice that a ray has left the volume only on arrival, as the papers do"
+    )]
+    exit_lookahead: bool = true;
+
+    /// rc-block: test for empty blocks before the first main pass too
+    #[arg(long, num_args = 0, default_missing_value = "true")]
+    block_first: bool = false;
+
+    /// nn-*: side of a cell of the distance structure in voxels
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
+    cell: u32 = 1, within Limits::new(Allowed::OneOf(&CELLS), "{} voxels");
+
+    /// nn-cone: half-angle around the view direction
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    cone: f64 = 10.0, within Limits::from_to(0.01, 60.0, "a half-angle {} degrees");
+
+    /// nn-*: who builds the distances
+    #[arg(long, value_name = "WHO")]
+    build: Builder = Builder::Auto;
+
+    /// Leave out what the scene does not need; without, everything a method may have is there
+    #[arg(
+        long = "no-planner", num_args = 0, default_missing_value = "false",
+        help = "Leave nothing out that the method may have, whether the scene needs it or not: the planner's savings"
+    )]
+    planner: bool = true;
+
+    /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    lookups: u32 = 1, within Limits::from_to(1.0, 1024.0, "a number {}");
+}
+
+/// Who builds the distances.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Builder {
+    /// The host for a device that is a CPU, where it is the faster, else the device.
+    #[default]
+    Auto,
+    /// Compute shaders, on the compute queue.
+    Device,
+    /// The CPU.
+    Host,
+}

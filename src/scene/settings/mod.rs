@@ -1,0 +1,115 @@
+//! The settings of a run: the scene file's sections and keys, each with its default. A run is repeated from
+//! these alone.
+//!
+//! **How to add a setting**: one entry in its section's file. The macro of `section.rs`, which tells the form of an
+//! entry, makes of it the key, its default, the option on the command line with its help, and the check.
+//!
+//! **How to add a section**: one file as the others, its `mod` line here, and its row in `sections!` at the end of this
+//! file: key, settings, options.
+//!
+//! The test over all settings (`tests/settings.rs`) then asks for an option, a range and an error for each key that is
+//! new, and takes a value for an option where it cannot find one itself.
+
+mod camera;
+mod image;
+mod key;
+mod method;
+mod parse;
+mod sampling;
+mod section;
+mod transfer;
+mod volume;
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Result;
+
+pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
+pub use super::volume_choice::{Component, Endian, Orientation};
+pub use image::Accumulate;
+pub use key::Key;
+pub use method::{Builder, CELLS};
+pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
+pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
+
+/// Joins the sections.
+macro_rules! sections {
+    ($($name:ident: $settings:ident, $options:ident;)*) => {
+        $(pub use $name::{$settings, $options};)*
+
+        /// All keys of a scene file.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields, expecting = "the sections of a scene file")]
+        pub struct Settings {
+            $(pub $name: $settings,)*
+        }
+
+        /// The options of all sections.
+        #[derive(Clone, Debug, Default, Args)]
+        #[command(mut_args(notes()))]
+        pub struct SettingsOptions {
+            $(
+                #[command(flatten)]
+                pub $name: $options,
+            )*
+        }
+
+        impl SettingsOptions {
+            /// Writes the options that were given over `settings`.
+            pub fn apply(&self, settings: &mut Settings) {
+                $(self.$name.apply(&mut settings.$name);)*
+            }
+        }
+
+        impl Settings {
+            /// All keys, section by section.
+            pub fn keys() -> Vec<Key> {
+                [$($settings::keys()),*].concat()
+            }
+
+            /// Whether every value is allowed, before any file is read.
+            ///
+            /// # Errors
+            /// When one is not, by its key and its option.
+            pub fn check(&self) -> Result<()> {
+                $(self.$name.check()?;)*
+                Ok(())
+            }
+        }
+    };
+}
+
+/// What puts default and range behind the help of each option that sets a key.
+fn notes() -> impl FnMut(clap::Arg) -> clap::Arg {
+    let keys = Settings::keys();
+    move |arg| match keys.iter().find(|key| key.option.is_some() && arg.get_id() == key.id) {
+        Some(key) => {
+            let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+            arg.help(help + &key.note())
+        }
+        None => arg,
+    }
+}
+
+/// The formats of what frames draw into.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Formats {
+    pub accumulate: Accumulate,
+    pub depth: DepthFormat,
+}
+
+impl Settings {
+    pub fn formats(&self) -> Formats {
+        Formats { accumulate: self.image.accumulate, depth: self.method.depth }
+    }
+}
+
+sections! {
+    volume: VolumeSettings, VolumeOptions;
+    transfer: TransferSettings, TransferOptions;
+    camera: CameraSettings, CameraOptions;
+    image: ImageSettings, ImageOptions;
+    sampling: SamplingSettings, SamplingOptions;
+    method: MethodSettings, MethodOptions;
+}

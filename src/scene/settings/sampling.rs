@@ -1,0 +1,140 @@
+//! `[sampling]`: where samples are taken, and what they stand for.
+
+use std::ops::RangeInclusive;
+
+use serde::{Deserialize, Serialize};
+
+use super::section::section;
+use crate::scene::limits::Limits;
+
+/// Steps that are neither below what single precision resolves nor longer than any volume, in voxels.
+const STEPS: Limits = Limits::from_to(1e-4, 1e6, "a number of voxels {}");
+
+/// The most samples of a pass, and the most passes.
+const MAX_COUNT: f64 = 65536.0;
+
+/// Extra fetches a sample may have.
+pub const EXTRA_FETCHES: RangeInclusive<u32> = 0..=4096;
+
+section! {
+    /// Where samples are taken, and what they stand for.
+    #[serde(expecting = "the section [sampling]")]
+    #[command(next_help_heading = "Sampling")]
+    SamplingSettings, SamplingOptions, "sampling";
+
+    /// Distance between samples, in voxels of the finest spacing
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
+    step: f64 = 1.0, within STEPS;
+
+    /// Where in its step a sample is taken
+    #[arg(long, value_name = "PLACE")]
+    offset: Offset = Offset::Left;
+
+    /// What the last sample of a ray stands for
+    #[arg(long, value_name = "LENGTH")]
+    last: Last = Last::Full;
+
+    /// How opacities are brought to the step
+    #[arg(long, value_name = "RULE")]
+    alpha: Alpha = Alpha::Exponential;
+
+    /// Who interpolates the volume
+    #[arg(long, value_name = "WHO")]
+    filter: Filter = Filter::Hardware;
+
+    /// What the transfer function is asked for: values of samples, or all values from one to the next
+    #[arg(long, value_name = "WHAT")]
+    classification: Classification = Classification::Post;
+
+    /// M, samples per main pass
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    samples_per_pass: u32 = 8, within Limits::from_to(1.0, MAX_COUNT, "a number {}");
+
+    /// N, main passes; 0 takes as many as the longest ray of the view needs
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    passes: u32 = 0, within Limits::from_to(0.0, MAX_COUNT, "a number {}; 0 takes as many as the view needs");
+
+    /// T, a ray ends when its opacity is greater, as in the papers: up to 1 - T of what lies behind, the background
+    /// included, then stays as it was; 1 ends none early
+    #[arg(long, value_name = "OPACITY", allow_negative_numbers = true)]
+    termination: f64 = 0.95, within Limits::from_to(0.0, 1.0, "an opacity {} (1 ends no ray early)");
+
+    /// Artificial cost of a sample: so many further fetches, one after another, which change no picture
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    extra_fetches: u32 = 0,
+        within Limits::from_to(f64::from(*EXTRA_FETCHES.start()), f64::from(*EXTRA_FETCHES.end()), "a number {}");
+}
+
+impl SamplingSettings {
+    /// Whether a sample stands for all values up to the next one, not for its own alone.
+    pub fn spans(&self) -> bool {
+        self.classification == Classification::PreIntegrated
+    }
+}
+
+/// What the transfer function is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Classification {
+    /// The value of a sample.
+    #[default]
+    Post,
+    /// All values from one sample to the next, by a table made for the step; the value goes evenly between them.
+    PreIntegrated,
+}
+
+/// Where in its step a sample is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Offset {
+    /// At its begin, as the papers do.
+    #[default]
+    Left,
+    /// In its middle.
+    Midpoint,
+}
+
+impl Offset {
+    /// In steps.
+    pub fn steps(self) -> f64 {
+        match self {
+            Self::Left => 0.0,
+            Self::Midpoint => 0.5,
+        }
+    }
+}
+
+/// What the last sample of a ray stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Last {
+    /// A whole step, as in the papers.
+    #[default]
+    Full,
+    /// What is left of the ray.
+    Partial,
+}
+
+/// How an opacity is brought from the reference length to the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Alpha {
+    /// 1 - (1 - a)^(step / reference).
+    #[default]
+    Exponential,
+    /// Used as it stands.
+    Paper,
+}
+
+/// Who interpolates the volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// The device's texture unit.
+    #[default]
+    Hardware,
+    /// The shader, in f32.
+    Exact,
+    /// Nobody: a sample has the value of the nearest voxel, as label maps need.
+    Nearest,
+}
