@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &[&str]); 17] = [
+const MAY_IMPORT: [(&str, &[&str]); 18] = [
     ("error", &[]),
     ("math", &[]),
     ("provenance", &[]),
@@ -23,9 +23,26 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
         "frame",
         &["error", "math", "scene", "structure", "glsl", "vulkan", "reference", "shared", "probe", "pass", "plan"],
     ),
-    ("stability", &["error", "math", "scene", "read", "structure", "reference", "pass", "plan", "frame"]),
     (
         "measure",
+        &[
+            "error",
+            "provenance",
+            "math",
+            "scene",
+            "structure",
+            "glsl",
+            "vulkan",
+            "reference",
+            "shared",
+            "pass",
+            "plan",
+            "frame",
+        ],
+    ),
+    ("report", &["error", "provenance", "math", "scene", "measure"]),
+    (
+        "experiment",
         &[
             "error",
             "provenance",
@@ -41,7 +58,8 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
             "pass",
             "plan",
             "frame",
-            "stability",
+            "measure",
+            "report",
         ],
     ),
     (
@@ -61,8 +79,9 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
             "pass",
             "plan",
             "frame",
-            "stability",
             "measure",
+            "report",
+            "experiment",
         ],
     ),
 ];
