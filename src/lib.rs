@@ -7,16 +7,19 @@
 //! 3. [`method`] and [`feature`]: what each renderer is and what a frame may have, as rows; [`pass`]: each pass said once: its
 //!    GLSL, what it reads and draws into, its f64 twin in [`mod@reference`]; [`part`]: the types of all of these.
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
-//! 5. [`measure`]: counts, times and errors to tables, JSON, CSV and the report.
+//! 5. [`measure`]: counts, times and errors of frames, one record a run.
+//! 6. [`report`]: records to tables, claims, pages and plots.
+//! 7. [`experiment`]: what is asked of the methods and of a device; [`cli`] takes the arguments.
 //!
-//! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume, and [`stability`] holds stiff and
-//! extreme scenes against the pictures they must give.
+//! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
 //! Imports point one way: `error, math, provenance <- scene <- read, structure <- reference, shared`;
-//! `error <- glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- stability <- measure <- cli`.
+//! `error <- glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- measure <- report
+//! <- experiment <- cli`.
 
 pub mod cli;
 pub mod error;
+pub mod experiment;
 pub mod feature;
 pub mod frame;
 pub mod glsl;
@@ -30,9 +33,9 @@ pub mod probe;
 pub mod provenance;
 pub mod read;
 pub mod reference;
+pub mod report;
 pub mod scene;
 pub mod shared;
-pub mod stability;
 pub mod structure;
 pub mod vulkan;
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &[&str]); 20] = [
+const MAY_IMPORT: [(&str, &[&str]); 21] = [
     ("error", &[]),
     ("math", &[]),
     ("provenance", &[]),
@@ -60,9 +60,29 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
             "plan",
         ],
     ),
-    ("stability", &["error", "math", "scene", "read", "structure", "reference", "part", "method", "plan", "frame"]),
     (
         "measure",
+        &[
+            "error",
+            "provenance",
+            "math",
+            "scene",
+            "structure",
+            "glsl",
+            "vulkan",
+            "reference",
+            "shared",
+            "part",
+            "feature",
+            "pass",
+            "method",
+            "plan",
+            "frame",
+        ],
+    ),
+    ("report", &["error", "provenance", "math", "scene", "measure"]),
+    (
+        "experiment",
         &[
             "error",
             "provenance",
@@ -80,7 +100,8 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
             "method",
             "plan",
             "frame",
-            "stability",
+            "measure",
+            "report",
         ],
     ),
     (
@@ -102,8 +123,9 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
             "method",
             "plan",
             "frame",
-            "stability",
             "measure",
+            "report",
+            "experiment",
         ],
     ),
 ];

@@ -9,7 +9,7 @@ use super::open::DeviceOptions;
 use super::options::{SceneOptions, is_scene_file, method_parser, scene_name};
 use super::output::{Progress, settings_in, write_json};
 use crate::error::{Error, Result};
-use crate::measure::accuracy::{
+use crate::experiment::accuracy::{
     Accuracy as Found, Curve, FORMAT, Point, csv, expected_order, fit, mark_pareto, page, remarks, step_svg, text,
     time_svg,
 };

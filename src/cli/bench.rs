@@ -9,20 +9,22 @@ use super::open::DeviceOptions;
 use super::options::{BENCH_METHODS, SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
+use crate::experiment::bench::{Difference, ReportInput, csv, report_html, table};
+use crate::experiment::orbit::orbits;
 use crate::frame::Verdict;
-use crate::measure::comparison::groups;
 use crate::measure::error::difference;
 use crate::measure::picture::Picture;
 use crate::measure::record::{FORMAT, Results, Run};
-use crate::measure::report::{Difference, verdict};
 use crate::measure::runner::{Checked, Effort, Measured, Runner};
-use crate::measure::{ReportInput, csv, report_html, table, write, write_atomically};
+use crate::measure::{write, write_atomically};
 use crate::method;
 use crate::part::form::Form;
 use crate::part::rows::Method;
 use crate::probe::{self, Probe};
 use crate::provenance::Provenance;
 use crate::read;
+use crate::report::comparison::groups;
+use crate::report::verdict;
 use crate::scene::settings::{CELLS, Cull, EXTRA_FETCHES, MethodName, MethodSettings, Settings};
 
 /// Every method on every scene: the main job
@@ -124,7 +126,7 @@ impl Bench {
             let mut runner = Runner::new(opened.as_ref(), read::scene(settings)?, scene_name(settings));
             let mut here = runner.measure(&methods, effort, &|what| progress.say(what))?;
             if let Some(count) = self.orbit {
-                runner.orbits(&mut here, count, &|what| progress.say(what))?;
+                orbits(&mut runner, &mut here, count, &|what| progress.say(what))?;
             }
             measured.extend(here);
             for cost in self.costs() {
@@ -202,12 +204,12 @@ impl Bench {
             probe: probe.as_ref(),
         };
         write_atomically(&self.output.join("results.json"), results.to_json()?.as_bytes())?;
-        write_atomically(&self.output.join("results.csv"), csv::csv(&results)?.as_bytes())?;
+        write_atomically(&self.output.join("results.csv"), csv(&results)?.as_bytes())?;
         let report = self.output.join("report.html");
         write_atomically(&report, report_html(&input)?.as_bytes())?;
         let verdict = verdict(&groups(&results.runs));
         output::warn(&results.runs);
-        let text = format!("{}\n{verdict}\n\nReport: {}\n", table::table(&results.runs), report.display());
+        let text = format!("{}\n{verdict}\n\nReport: {}\n", table(&results.runs), report.display());
         write::write_standard_output(text.as_bytes())?;
         match broken.first() {
             None => Ok(()),

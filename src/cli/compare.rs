@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::output;
 use crate::error::{Error, Result};
-use crate::measure::compare::{compare, text};
+use crate::experiment::compare::{compare, text};
 use crate::measure::record::FORMAT;
 use crate::measure::write::{is_standard_output, write_standard_output};
 use crate::measure::{Results, Run};

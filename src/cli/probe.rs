@@ -7,7 +7,7 @@ use clap::Args;
 use super::open::DeviceOptions;
 use super::output::{Progress, write_json};
 use crate::error::{Error, Result};
-use crate::measure::probe::{compare, page, text};
+use crate::experiment::probe::{compare, page, text};
 use crate::measure::write::{self, write_atomically};
 use crate::probe::record::{self, DeviceRecord, FORMAT, Probe as Record};
 use crate::probe::run::{Found, probe};

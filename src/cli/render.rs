@@ -9,10 +9,11 @@ use super::open::DeviceOptions;
 use super::options::{SceneOptions, method_parser, scene_name};
 use super::output::{self, Progress, settings_in};
 use crate::error::{Error, Result};
+use crate::experiment::bench::table;
+use crate::measure::Run;
 use crate::measure::picture::Format;
 use crate::measure::runner::{Effort, Measured, Runner};
 use crate::measure::write::write_standard_error;
-use crate::measure::{Run, table};
 use crate::method;
 use crate::read;
 use crate::scene::Settings;
@@ -83,7 +84,7 @@ impl Render {
         output::say("note", &run.scene, &run.notes);
         output::warn(std::slice::from_ref(&run));
         // The picture may be on standard output.
-        write_standard_error(&table::table(std::slice::from_ref(&run)));
+        write_standard_error(&table(std::slice::from_ref(&run)));
         Ok(())
     }
 

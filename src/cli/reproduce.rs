@@ -7,9 +7,9 @@ use clap::Args;
 use super::open::DeviceOptions;
 use super::output::{Progress, settings_in};
 use crate::error::Result;
+use crate::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
+use crate::experiment::reproduce::{FORMAT, ReproducedSet, Reproduction, Shown, Variant, csv, page, text};
 use crate::frame::EarlyEnd;
-use crate::measure::reproduce::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
-use crate::measure::reproduce::{Column, FORMAT, Reproduction, Shown, Variant, csv, page, text};
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::measure::{Run, write, write_atomically};
 use crate::method;
@@ -50,7 +50,7 @@ type Choice = (&'static str, &'static str, fn(&mut Settings));
 const MAIN: Choice =
     ("main", "ramp, T = 0.95, exponential opacity, cells of 1 voxel, rays end ahead of the faces", |_| {});
 
-/// Each of [`crate::measure::reproduce::papers::OPEN`] alone.
+/// Each of [`crate::experiment::reproduce::papers::OPEN`] alone.
 const CHOICES: [Choice; 7] = [
     ("transfer function", "linear", |s| s.transfer.preset = Some("linear".to_owned())),
     ("transfer function", "linear from 12/255", |s| {
@@ -77,7 +77,7 @@ impl Reproduce {
         let progress = Progress::new();
         for (i, set) in DATA_SETS.iter().enumerate() {
             let file = self.file(set);
-            let mut column = Column {
+            let mut column = ReproducedSet {
                 name: set.name.to_owned(),
                 source: set.source.to_owned(),
                 file: file.as_ref().ok().map(|path| path.display().to_string()),
@@ -148,7 +148,7 @@ impl Reproduce {
         Ok((variant, picture.map(|one| one.picture).filter(|_| main)))
     }
 
-    fn write(&self, mut columns: Vec<Column>, pictures: &[Shown]) -> Result<()> {
+    fn write(&self, mut columns: Vec<ReproducedSet>, pictures: &[Shown]) -> Result<()> {
         write::create_folder(&self.output)?;
         for run in columns.iter_mut().flat_map(|c| &mut c.variants).flat_map(|v| &mut v.runs) {
             run.settings = settings_in(&self.output, run.settings.clone());

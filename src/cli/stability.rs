@@ -9,12 +9,13 @@ use super::open::DeviceOptions;
 use super::options::method_parser;
 use super::output::{Progress, write_json};
 use crate::error::{Error, Result};
-use crate::measure::stability::{CaseRecord, FORMAT, OnDevice, Stability as Found, page, text};
+use crate::experiment::stability::{
+    CaseRecord, FORMAT, OnDevice, Stability as Found, StabilityCase, StabilityVerdict, battery, judge, page, text,
+};
 use crate::measure::write::{self, write_atomically};
 use crate::method;
 use crate::provenance::Provenance;
 use crate::scene::settings::MethodName;
-use crate::stability::{Case, Verdict, battery, judge};
 
 /// Stiff and extreme cases, each held against what it must give
 ///
@@ -83,7 +84,7 @@ impl Stability {
         let report = output.join("stability.html");
         write_atomically(&report, page(&found).as_bytes())?;
         write::write_standard_output(format!("{}Report: {}\n", text(&found), report.display()).as_bytes())?;
-        match found.count(Verdict::Wrong) {
+        match found.count(StabilityVerdict::Wrong) {
             0 => Ok(()),
             wrong => Err(Error::check(
                 format!("stability on {}", found.device),
@@ -93,7 +94,7 @@ impl Stability {
         }
     }
 
-    fn cases(&self) -> Result<Vec<Case>> {
+    fn cases(&self) -> Result<Vec<StabilityCase>> {
         let mut cases = battery();
         if let Some(part) = &self.case {
             let part = part.to_lowercase();

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::error::compare;
 use super::frame_times::{gpu_times, host_times, pass_times};
+use super::law::law_of_skipping;
 use super::limits;
 use super::picture::Picture;
 use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
@@ -63,11 +64,11 @@ pub struct Measured {
 /// One scene on one device; what its methods share is made once.
 pub struct Runner<'a> {
     /// None for the method `cpu` alone, which needs no device.
-    pub(super) checked: Option<&'a Checked>,
-    pub(super) scene: Scene,
-    pub(super) name: String,
+    pub(crate) checked: Option<&'a Checked>,
+    pub(crate) scene: Scene,
+    pub(crate) name: String,
     structures: Structures,
-    pub(super) resident: Option<Resident>,
+    pub(crate) resident: Option<Resident>,
     /// The twin's frame, with and without early termination.
     references: BTreeMap<bool, CpuFrame>,
 }
@@ -313,25 +314,6 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
-/// and notes what was found.
-pub fn law_of_skipping(measured: &mut [Measured]) {
-    let ends_early = |one: &Measured| one.method.under_the_law();
-    let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
-    let Some(rule) = ended_early.next() else { return };
-    let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
-    let rule_name = name(&rule.run);
-    for one in ended_early {
-        let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);
-        let differing = pairs.filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count() as u64;
-        one.differing = Some(differing);
-        one.run.notes.push(match differing {
-            0 => format!("the picture is that of {rule_name}, bit for bit"),
-            n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
-        });
-    }
-}
-
 fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
     let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
     let frame = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
@@ -347,7 +329,7 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
 
 /// Whether the host builds the distances: where it is asked to, where the device has no room to, and on a device that is
 /// a CPU, for which the host is the faster (`cargo bench --bench build`).
-pub(super) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
+pub(crate) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
     let Some(lookup) = &plan.distance else { return false };
     match scene.settings.method.build {
         Builder::Host => true,
@@ -357,12 +339,12 @@ pub(super) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> boo
     }
 }
 
-pub(super) fn no_device() -> Error {
+pub(crate) fn no_device() -> Error {
     Error::device("method", "needs a device, and none is open", "open one, or use --method cpu")
 }
 
 /// A form that the device has not is refused; one that it does wrongly is run and named.
-pub(super) fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
+pub(crate) fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
     let missing = form.and_then(|form| match checked.check.forms.get(&form) {
         Some(Verdict::Missing(what)) => Some((form, what)),
         None if form.cull == Cull::Bounds && !checked.device.info.depth_bounds => {

@@ -81,7 +81,7 @@ fn mesa_26(probe: &Probe) {
     assert_eq!(probe.statistics, None);
     let early = [Mechanism::DepthRead, Mechanism::DepthWrite, Mechanism::BoundsRead, Mechanism::BoundsAlone];
     lavapipe(probe, &early);
-    let words = depthleap::measure::probe::text(probe);
+    let words = depthleap::experiment::probe::text(probe);
     assert!(words.contains("Wrong, the first case of each kind") && words.contains("colour wrong in"), "{words}");
 }
 

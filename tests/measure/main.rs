@@ -1,12 +1,5 @@
-//! From counts, times and pictures to tables, JSON, CSV and the report.
+//! Records, pictures, statistics: what is measured, and how it is kept.
 
-mod accuracies;
-mod compares;
-mod orbits;
-mod pages;
 mod pictures;
-mod probes;
 mod records;
-mod reproduce;
 mod runs;
-mod savings;

@@ -1,15 +1,15 @@
 //! Statistics, numbers, JSON and CSV.
 
+use depthleap::experiment::bench::csv;
 use depthleap::measure::Results;
 use depthleap::measure::Run;
 use depthleap::measure::Statistics;
 use depthleap::measure::Timings;
-use depthleap::measure::csv::csv;
-use depthleap::measure::number::milliseconds;
-use depthleap::measure::number::percent;
-use depthleap::measure::number::thousands;
 use depthleap::measure::record::ErrorRecord;
 use depthleap::measure::record::TextureRecord;
+use depthleap::report::number::milliseconds;
+use depthleap::report::number::percent;
+use depthleap::report::number::thousands;
 
 use crate::runs::{results, run};
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use depthleap::measure::accuracy::{Accuracy, Curve};
+use depthleap::experiment::accuracy::{Accuracy, Curve};
 use depthleap::vulkan::Device;
 
 use super::program::Place;

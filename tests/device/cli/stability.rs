@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use depthleap::measure::stability::Stability;
+use depthleap::experiment::stability::{Stability, StabilityVerdict, battery};
 use depthleap::method;
-use depthleap::stability::{Verdict, battery};
 use depthleap::vulkan::Device;
 
 use super::program::Place;
@@ -36,10 +35,15 @@ fn every_case(device: &Arc<Device>) {
             asked.methods.len()
         };
         assert_eq!(case.outcomes.len(), methods, "{}", case.name);
-        assert!(case.outcomes.iter().all(|o| o.verdict != Verdict::Wrong), "{}: {:?}", case.name, case.outcomes);
+        assert!(
+            case.outcomes.iter().all(|o| o.verdict != StabilityVerdict::Wrong),
+            "{}: {:?}",
+            case.name,
+            case.outcomes
+        );
     }
     // A device may lack the depth bounds test, and a depth buffer of 24 bits.
-    let missing = found.count(Verdict::Missing);
+    let missing = found.count(StabilityVerdict::Missing);
     println!("{}", found.summary());
     assert!(missing <= 7 && said.contains(&found.summary()), "{missing} cases were not run");
     let page = String::from_utf8(place.read("out/stability.html")).unwrap();

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
-use depthleap::measure::runner::{Checked, Effort, Runner, law_of_skipping};
+use depthleap::measure::law::law_of_skipping;
+use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::plan;

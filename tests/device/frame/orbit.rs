@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use depthleap::experiment::orbit as around;
 use depthleap::measure::runner::{Checked, Runner};
 use depthleap::method;
 use depthleap::scene::settings::{MethodName, MethodSettings};
@@ -124,12 +125,12 @@ fn structures_are_built_beside_the_frames(device: &Arc<Device>) {
     let checked = Checked { device: device.clone(), check, early_end: None };
     let mut runner = Runner::new(Some(&checked), scene.clone(), "jets".to_owned());
     let settings = |name| MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
-    let rule = runner.orbit(&settings(method::RC_ERT.name()), FRAMES, &|_| {}).expect("an orbit");
+    let rule = around::orbit(&mut runner, &settings(method::RC_ERT.name()), FRAMES, &|_| {}).expect("an orbit");
     assert!(rule.frames.iter().all(|frame| frame.structure.is_none() && frame.build_ms == 0.0));
     for (name, own) in
         [(method::NN_OPTIMAL.name(), "optimal"), (method::NN_CONE.name(), "cone"), (method::NN_OMNI.name(), "omni")]
     {
-        let orbit = runner.orbit(&settings(name), FRAMES, &|_| {}).expect("an orbit");
+        let orbit = around::orbit(&mut runner, &settings(name), FRAMES, &|_| {}).expect("an orbit");
         assert_eq!(orbit.pictures, rule.pictures, "{own}");
         let used: Vec<_> = orbit.frames.iter().filter(|frame| frame.structure.as_deref() == Some(own)).collect();
         assert!(used.len() >= 3, "{own} was used {} times in {FRAMES} frames", used.len());

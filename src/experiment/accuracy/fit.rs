@@ -1,0 +1,65 @@
+//! What the curves come to: the order in the step, the pictures that nothing beats, and the fastest within an error.
+
+use super::{Curve, Fit, Point};
+
+/// Where half the step takes less than this order from the error, it has come down to what does not fall with the step:
+/// rounding, the texture unit, rays that end early.
+const STALLED: f64 = 0.4;
+
+/// Longer steps than this do not meet a cell each.
+const LONGEST: f64 = 2.0;
+
+/// The order in the step: the slope of a line through log error over log step, by least squares, from the longest step
+/// down to where the error stalls. `points` are steps and errors.
+pub fn fit(points: &[(f64, f64)]) -> Option<Fit> {
+    let mut sorted: Vec<(f64, f64)> = points
+        .iter()
+        .filter(|(step, error)| *step > 0.0 && *step <= LONGEST && error.is_finite() && *error > 0.0)
+        .map(|(step, error)| (step.ln(), error.ln()))
+        .collect();
+    sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let falls = |pair: &[(f64, f64)]| (pair[0].1 - pair[1].1) >= STALLED * (pair[0].0 - pair[1].0);
+    let used = &sorted[..sorted.windows(2).position(|pair| !falls(pair)).map_or(sorted.len(), |at| at + 1)];
+    if used.len() < 3 {
+        return None;
+    }
+    let n = used.len() as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| used.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    let (xy, xx) = (mean(&|p| (p.0 - x) * (p.1 - y)), mean(&|p| (p.0 - x).powi(2)));
+    let steps = [used[0].0.exp(), used[used.len() - 1].0.exp()];
+    (xx > 0.0).then(|| Fit { order: xy / xx, steps, points: used.len() })
+}
+
+/// Marks the points that no other one beats in both time and error.
+pub fn mark_pareto(curves: &mut [Curve]) {
+    let all: Vec<(f64, f64)> = curves.iter().flat_map(|c| &c.points).filter_map(|p| p.time().zip(p.rmse)).collect();
+    for point in curves.iter_mut().flat_map(|c| &mut c.points) {
+        let Some((ms, rmse)) = point.time().zip(point.rmse) else { continue };
+        point.pareto = !all.iter().any(|(t, e)| (*t < ms && *e <= rmse) || (*t <= ms && *e < rmse));
+    }
+}
+
+/// The fastest picture whose largest error is at most that.
+pub fn fastest(curves: &[Curve], error: f64) -> Option<(&Curve, &Point)> {
+    let all = curves.iter().flat_map(|curve| curve.points.iter().map(move |point| (curve, point)));
+    let good = all.filter(|(_, point)| point.max.is_some_and(|max| max <= error) && point.ms.is_some());
+    good.min_by(|a, b| a.1.time().unwrap_or(f64::INFINITY).total_cmp(&b.1.time().unwrap_or(f64::INFINITY)))
+}
+
+/// What is asked in one line each: 1/255, which no 8-bit picture shows, and 1/1000.
+pub fn answers(curves: &[Curve]) -> Vec<String> {
+    [("1/255", 1.0 / 255.0), ("1/1000", 1e-3)]
+        .into_iter()
+        .map(|(name, error)| match fastest(curves, error) {
+            Some((curve, point)) => format!(
+                "For an error of at most {name}, {} at a step of {} voxels is the fastest: {:.2} ms, largest error {:.1e}.",
+                curve.name(),
+                point.step,
+                point.time().unwrap_or_default(),
+                point.max.unwrap_or_default()
+            ),
+            None => format!("No run comes within an error of {name}."),
+        })
+        .collect()
+}

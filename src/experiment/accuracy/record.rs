@@ -1,0 +1,95 @@
+//! `accuracy.json`: curves of error and time by the step.
+
+use serde::{Deserialize, Serialize};
+
+use crate::measure::record::Clock;
+use crate::measure::timing::Timing;
+use crate::provenance::Provenance;
+use crate::scene::Settings;
+
+/// The version of the format written here.
+pub const FORMAT: u32 = 1;
+
+/// `accuracy.json`. Errors are of premultiplied linear RGBA against the emission-absorption integral in f64.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    #[serde(flatten)]
+    pub provenance: Provenance,
+    pub scene: String,
+    pub view: String,
+    pub device: String,
+    pub driver: String,
+    /// What times are taken with; null where nothing was timed.
+    pub clock: Option<Clock>,
+    pub curves: Vec<Curve>,
+    /// What holds for every curve.
+    pub remarks: Vec<String>,
+    /// Of the scene, as a scene file has them; each curve says what it changes.
+    pub settings: Settings,
+}
+
+/// A method with one way of sampling, by its steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    pub method: String,
+    /// What differs from the scene: `midpoint, partial`; empty for nothing.
+    pub variation: String,
+    pub settings: Settings,
+    pub points: Vec<Point>,
+    /// Order in the step of the root mean squared error, and the steps it was fitted over; null where too few points
+    /// are above what does not fall with the step.
+    pub order: Option<Fit>,
+    /// The order that theory gives; null where it gives none.
+    pub expected: Option<f64>,
+    /// Why the two may differ.
+    pub remarks: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fit {
+    pub order: f64,
+    /// The longest and the shortest step, voxels.
+    pub steps: [f64; 2],
+    pub points: usize,
+}
+
+/// A picture of one step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Voxels of the finest spacing.
+    pub step: f64,
+    /// M, so that a pass goes about as far along a ray whatever the step.
+    pub samples_per_pass: u32,
+    /// Largest and root mean squared difference of a channel; null where it is not finite.
+    pub max: Option<f64>,
+    pub rmse: Option<f64>,
+    /// Decibel against a peak of 1.
+    pub psnr: Option<f64>,
+    /// Structural similarity of the pictures as 8-bit grey over the background, 1 where they are equal.
+    pub ssim: Option<f64>,
+    /// Milliseconds of a frame: median, least, most, median absolute deviation, and how many were timed.
+    pub ms: Option<[f64; 4]>,
+    pub timed: usize,
+    /// Samples that the main fragments take, those beyond the end of a ray included.
+    pub samples: u64,
+    /// No other picture is both faster and nearer to the truth.
+    pub pareto: bool,
+}
+
+impl Point {
+    pub fn time(&self) -> Option<f64> {
+        self.ms.map(|ms| ms[0])
+    }
+
+    pub fn times(timing: Option<&Timing>) -> (Option<[f64; 4]>, usize) {
+        let Some(timing) = timing else { return (None, 0) };
+        let [least, most] = timing.range();
+        (Some([timing.value, least, most, timing.stats.map_or(0.0, |s| s.mad)]), timing.stats.map_or(1, |s| s.n))
+    }
+}
+
+impl Curve {
+    pub fn name(&self) -> String {
+        if self.variation.is_empty() { self.method.clone() } else { format!("{}, {}", self.method, self.variation) }
+    }
+}

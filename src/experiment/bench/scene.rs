@@ -1,0 +1,167 @@
+//! One scene of the report: pictures, table, plots, plan, settings.
+
+use std::collections::BTreeSet;
+
+use super::page::ReportInput;
+use crate::error::{Error, Result};
+use crate::experiment::orbit::Summary;
+use crate::measure::record::{OrbitFrame, Run};
+use crate::report::comparison::{Grid, RunGroup, label};
+use crate::report::cost::Sweep;
+use crate::report::html::{Html, escape};
+use crate::report::number::bytes;
+use crate::report::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
+use crate::scene::texture::Within;
+
+/// # Errors
+/// When a picture or a plot cannot be made.
+pub fn section(page: &mut Html, group: &RunGroup, sweep: Option<&Sweep>, input: &ReportInput) -> Result<()> {
+    page.raw("<section>\n");
+    page.tag("h2", &group.first().scene);
+    page.raw(&format!("<p class=\"sub\">{}</p>\n", escape(&group.subtitle())));
+    warnings(page, group);
+    pictures(page, group, input)?;
+    page.grid(&Grid::of(group));
+    if let Some(svg) = fragments_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Fragments per pass, {}", group.first().scene),
+            "Fragments that passed all tests, pass by pass. Forms of culling that give the same counts in every pass are \
+             one line. In long runs the lines take turns in marking a pass: marks of several colours on one line are \
+             methods with the same counts there.",
+        );
+    }
+    if let Some(svg) = times_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Time per method, {}", group.first().scene),
+            "Time of a frame. Coloured parts are medians of their own, so their sum need not be the median of the whole, \
+             which the black tick marks.",
+        );
+    }
+    if let Some(sweep) = sweep {
+        page.plot(
+            &cost_svg(sweep)?,
+            &format!("Time by the cost of a sample, {}", group.first().scene),
+            "Time of a frame in times of rc-ert, where each sample takes so many extra fetches, one after another, which \
+             change no picture. Below 1 skipping pays.",
+        );
+        let head = sweep.head();
+        page.table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &sweep.table());
+    }
+    if let Some(svg) = orbit_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Fragments of each frame of an orbit, {}", group.first().scene),
+            "Fragments in each frame while the camera goes around the volume. Structures made for a view are built \
+             beside the frames, which read omni until one is there that serves their view.",
+        );
+        orbits(page, group);
+    }
+    for (_, run) in &group.runs {
+        page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
+    }
+    page.raw("</section>\n");
+    Ok(())
+}
+
+/// What may make the pictures mislead, each thing once.
+fn warnings(page: &mut Html, group: &RunGroup) {
+    let mut said = BTreeSet::new();
+    for (_, run) in &group.runs {
+        for warning in run.warnings.iter().filter(|warning| said.insert(*warning)) {
+            page.raw(&format!("<p class=\"warning\">Warning: {}.</p>\n", escape(warning)));
+        }
+    }
+}
+
+/// The orbit by each method in a line, and frame by frame.
+fn orbits(page: &mut Html, group: &RunGroup) {
+    for (_, run) in &group.runs {
+        let Some(frames) = run.orbit.as_deref() else { continue };
+        let Some(summary) = Summary::of(frames) else { continue };
+        page.tag("p", &format!("{}: {}.", name(run), summary.words()));
+        let line = |frame: &OrbitFrame| {
+            let structure = frame.structure.as_deref().unwrap_or("-");
+            let age = frame.age.map_or_else(|| "-".to_owned(), |age| age.to_string());
+            format!(
+                "{:>5} {:>8.2} {structure:<12} {age:>4} {:>12} {:>12} {:>10.2} {:>10.2} {:>10.2}",
+                frame.frame, frame.turned, frame.main, frame.intermediate, frame.frame_ms, frame.cpu_ms, frame.build_ms
+            )
+        };
+        let head = format!(
+            "{:>5} {:>8} {:<12} {:>4} {:>12} {:>12} {:>10} {:>10} {:>10}",
+            "frame", "degrees", "structure", "age", "main", "intermediate", "frame ms", "CPU ms", "builds ms"
+        );
+        let lines: Vec<String> = std::iter::once(head).chain(frames.iter().map(line)).collect();
+        page.folded(&format!("{}: frames of the orbit", name(run)), |page| page.tag("pre", &lines.join("\n")));
+    }
+}
+
+fn name(run: &Run) -> String {
+    run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
+}
+
+fn pictures(page: &mut Html, group: &RunGroup, input: &ReportInput) -> Result<()> {
+    page.raw("<div class=\"pictures\">\n");
+    for (i, run) in &group.runs {
+        let Some((_, picture)) = input.pictures.iter().find(|(at, _)| at == i) else { continue };
+        page.raw("<figure>");
+        let in_picture = |e: Error| Error { input: format!("picture of {}, {}", run.scene, name(run)), ..e };
+        page.picture(picture, run.settings.image.background, &format!("{} by {}", run.scene, name(run)))
+            .map_err(in_picture)?;
+        page.raw(&format!("<figcaption>{}", escape(&name(run))));
+        if let Some(difference) = input.differences.iter().find(|d| d.run == *i) {
+            page.raw("<br>");
+            page.picture(&difference.picture, [0.0; 3], "difference to the reference").map_err(in_picture)?;
+            page.raw(&format!("<br>difference to the reference &#215;&#8201;{}", difference.gain));
+        }
+        page.raw("</figcaption></figure>\n");
+    }
+    page.raw("</div>\n");
+    Ok(())
+}
+
+fn detail(page: &mut Html, run: &Run) {
+    if !run.notes.is_empty() {
+        page.raw("<h4>Notes</h4>\n<ul>");
+        for note in &run.notes {
+            page.tag("li", note);
+        }
+        page.raw("</ul>\n");
+    }
+    page.raw("<h4>Plan</h4>\n");
+    page.tag("pre", &run.plan.join("\n"));
+    if !run.left_out.is_empty() {
+        page.raw("<h4>Left out</h4>\n<dl class=\"facts\">\n");
+        for left in &run.left_out {
+            page.fact(&left.what, &left.why);
+        }
+        page.raw("</dl>\n");
+    }
+    if let Some(error) = &run.error {
+        page.raw("<h4>Error</h4>\n<dl class=\"facts\">\n");
+        page.fact("Reference", &error.reference);
+        page.fact("Largest", &format!("{:e}", error.max));
+        page.fact("Root mean square", &format!("{:.3e}", error.rmse));
+        let equal = if error.rmse == 0.0 { "infinite: the pictures are equal" } else { "undefined" };
+        page.fact("PSNR", &error.psnr.map_or_else(|| equal.to_string(), |db| format!("{db:.1} dB")));
+        page.fact("Pixels left out of the largest", &error.undecided.to_string());
+        page.raw("</dl>\n");
+    }
+    if let Some(texture) = &run.texture {
+        page.raw("<h4>Volume on the device</h4>\n<dl class=\"facts\">\n");
+        page.fact("Kept as", &texture.format);
+        page.fact("An interpolated x is off by at most", &Within(texture.x_error).to_string());
+        page.fact("A channel of a pixel is off by at most", &Within(texture.pixel_error).to_string());
+        page.raw("</dl>\n");
+    }
+    page.raw("<h4>Memory</h4>\n<dl class=\"facts\">\n");
+    page.fact("structures", &bytes(run.bytes));
+    for (resource, size) in &run.memory {
+        page.fact(resource, &bytes(*size));
+    }
+    page.raw("</dl>\n<h4>Settings</h4>\n");
+    let settings = serde_json::to_string_pretty(&run.settings).unwrap_or_else(|e| format!("not available ({e})"));
+    page.tag("pre", &settings);
+}

@@ -1,0 +1,27 @@
+//! All cases, by what may go wrong.
+
+mod depth;
+mod optical;
+mod sampling;
+mod transfer;
+mod traps;
+mod values;
+mod views;
+
+use super::case::StabilityCase;
+
+/// Every case, by groups.
+pub fn battery() -> Vec<StabilityCase> {
+    [
+        optical::cases(),
+        transfer::cases(),
+        values::cases(),
+        views::cases(),
+        sampling::cases(),
+        depth::cases(),
+        traps::cases(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}

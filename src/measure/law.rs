@@ -1,0 +1,23 @@
+//! The law of skipping, held at run time.
+
+use super::record::Run;
+use super::runner::Measured;
+
+/// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
+/// and notes what was found.
+pub fn law_of_skipping(measured: &mut [Measured]) {
+    let ends_early = |one: &Measured| one.method.under_the_law();
+    let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
+    let Some(rule) = ended_early.next() else { return };
+    let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
+    let rule_name = name(&rule.run);
+    for one in ended_early {
+        let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);
+        let differing = pairs.filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count() as u64;
+        one.differing = Some(differing);
+        one.run.notes.push(match differing {
+            0 => format!("the picture is that of {rule_name}, bit for bit"),
+            n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
+        });
+    }
+}

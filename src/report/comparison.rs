@@ -1,0 +1,272 @@
+//! Runs of one scene side by side, measured against `rc-block`: the rows that every table shows.
+
+use std::fmt::Write;
+
+use super::number::{milliseconds, percent, thousands};
+use crate::measure::record::{Clock, Run, Saved};
+use crate::measure::saving;
+use crate::measure::timing::Timing;
+
+/// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
+pub const BASELINE: &str = "rc-block";
+
+/// The method whose saving the report states first [Thesis §5.3].
+pub const CLAIMED: &str = "nn-omni";
+
+/// Runs that differ in nothing but the method.
+#[derive(Clone, Debug)]
+pub struct RunGroup<'a> {
+    /// Each with its place in the results.
+    pub runs: Vec<(usize, &'a Run)>,
+}
+
+/// Groups in the order of their first runs.
+pub fn groups(runs: &[Run]) -> Vec<RunGroup<'_>> {
+    let mut groups: Vec<RunGroup> = Vec::new();
+    for (i, run) in runs.iter().enumerate() {
+        match groups.iter_mut().find(|g| comparable(g.first(), run)) {
+            Some(group) => group.runs.push((i, run)),
+            None => groups.push(RunGroup { runs: vec![(i, run)] }),
+        }
+    }
+    groups
+}
+
+/// Same scene, device and settings; the method may be another.
+fn comparable(a: &Run, b: &Run) -> bool {
+    let (s, t) = (&a.settings, &b.settings);
+    (&a.scene, &a.view, &a.device, &a.driver) == (&b.scene, &b.view, &b.device, &b.driver)
+        && (&s.volume, &s.transfer, &s.camera, &s.image, &s.sampling)
+            == (&t.volume, &t.transfer, &t.camera, &t.image, &t.sampling)
+}
+
+/// The method with the switches that change its counts.
+pub fn label(run: &Run) -> String {
+    let mut label = run.method.clone();
+    if run.method == BASELINE && run.settings.method.block_first {
+        label.push_str(" (block first)");
+    }
+    if run.method.starts_with("nn-") && !run.settings.method.exit_lookahead {
+        label.push_str(" (no lookahead)");
+    }
+    if run.method.starts_with("nn-") && run.settings.method.cell != 1 {
+        let _ = write!(label, " (cell {})", run.settings.method.cell);
+    }
+    if run.method.starts_with("nn-") && run.settings.method.lookups != 1 {
+        let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
+    }
+    label
+}
+
+impl<'a> RunGroup<'a> {
+    /// A group has at least one run.
+    pub fn first(&self) -> &'a Run {
+        self.runs[0].1
+    }
+
+    /// What the heading says below the scene's name.
+    pub fn subtitle(&self) -> String {
+        let run = self.first();
+        let (image, sampling) = (&run.settings.image, &run.settings.sampling);
+        let mut text = format!(
+            "{} x {} pixels, step {}, M = {}, T = {}",
+            image.size[0], image.size[1], sampling.step, sampling.samples_per_pass, sampling.termination
+        );
+        if sampling.extra_fetches > 0 {
+            let _ = write!(text, ", {} extra fetches a sample", sampling.extra_fetches);
+        }
+        if !run.view.is_empty() {
+            text = format!("{}; {text}", run.view);
+        }
+        text
+    }
+
+    /// The `rc-block` run in the papers' order where there is one, else one that tests first.
+    pub fn baseline(&self) -> Option<&'a Run> {
+        self.pick(BASELINE, |run| !run.settings.method.block_first)
+    }
+
+    /// The `nn-omni` run whose saving is claimed, with exit lookahead where there is one.
+    pub fn claimed(&self) -> Option<&'a Run> {
+        self.pick(CLAIMED, |run| run.settings.method.exit_lookahead)
+    }
+
+    fn pick(&self, method: &str, preferred: impl Fn(&Run) -> bool) -> Option<&'a Run> {
+        let all = || self.runs.iter().map(|(_, run)| *run).filter(|run| run.method == method);
+        all().find(|run| preferred(run)).or_else(|| all().next())
+    }
+
+    /// Lower bounds of the main fragments, each once; more than one where methods differ in what they may skip.
+    fn ideals(&self) -> Vec<u64> {
+        let mut ideals: Vec<u64> = self.runs.iter().filter_map(|(_, run)| run.ideal).map(|i| i.main).collect();
+        ideals.sort_unstable();
+        ideals.dedup();
+        ideals
+    }
+}
+
+/// One column of the comparison: the two lines of its heading.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    pub head: [&'static str; 2],
+    /// Numbers stand right, words left.
+    pub right: bool,
+}
+
+const fn column(upper: &'static str, lower: &'static str, right: bool) -> Column {
+    Column { head: [upper, lower], right }
+}
+
+pub const COLUMNS: [Column; 15] = [
+    column("", "method", false),
+    column("", "cull + mark", false),
+    column("main", "passes", true),
+    column("main", "fragments", true),
+    column("% of", BASELINE, true),
+    column("intermediate", "fragments", true),
+    column("% of", BASELINE, true),
+    column("shader", "invocations", true),
+    column("GPU", "ms", true),
+    column("CPU", "ms", true),
+    column("build", "ms", true),
+    column("fragments", "saved %", true),
+    column("time", "saved %", true),
+    column("culling", "efficiency", true),
+    column("largest", "error", true),
+];
+
+/// A cell; `note` is the place of its footnote, `mad` the spread beside a median.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cell {
+    pub text: String,
+    pub mad: Option<String>,
+    pub note: Option<usize>,
+}
+
+/// The comparison of one group.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    pub rows: Vec<[Cell; 15]>,
+    /// What the marks `(a)`, `(b)`, ... stand for.
+    pub notes: Vec<String>,
+}
+
+/// `a` for the first footnote, `b` for the second, ...
+pub fn note_mark(note: usize) -> String {
+    match u8::try_from(note) {
+        Ok(n) if n < 26 => char::from(b'a' + n).to_string(),
+        _ => format!("n{}", note + 1),
+    }
+}
+
+impl Grid {
+    pub fn of(group: &RunGroup) -> Self {
+        let mut grid = Self { rows: Vec::new(), notes: Vec::new() };
+        let baseline = group.baseline();
+        for (_, run) in &group.runs {
+            let row = grid.row(run, baseline);
+            grid.rows.push(row);
+        }
+        for ideal in group.ideals() {
+            let mut row: [Cell; 15] = std::array::from_fn(|_| Cell::default());
+            row[0] = grid.noted("ideal", "lower bound: the segments that hold a contributing sample; no method".into());
+            row[3] = value(thousands(ideal));
+            row[4] = grid.share(ideal, baseline.map(|b| b.fragments.main));
+            grid.rows.push(row);
+        }
+        grid
+    }
+
+    fn row(&mut self, run: &Run, baseline: Option<&Run>) -> [Cell; 15] {
+        [
+            value(label(run)),
+            match run.form() {
+                Some(forms) => value(forms),
+                None => self.absent("this method has no choice of cull and mark"),
+            },
+            value(thousands(u64::from(run.passes))),
+            value(thousands(run.fragments.main)),
+            self.share(run.fragments.main, baseline.map(|b| b.fragments.main)),
+            value(thousands(run.fragments.intermediate)),
+            self.share(run.fragments.intermediate, baseline.map(|b| b.fragments.intermediate)),
+            match &run.invocations {
+                Some(counts) => value(thousands(counts.main.saturating_add(counts.intermediate))),
+                None => self.absent("no count of shader invocations that can be believed on this device"),
+            },
+            self.time(run.gpu_ms.as_ref().and_then(|t| t.total()), "no device timestamps for this run"),
+            self.time(run.host.cpu.as_ref(), "CPU time was not measured"),
+            self.time(run.host.build.as_ref(), "this method builds no structure"),
+            self.saved(run, |saved| Some(100.0 * saved.fragments), 1),
+            self.saved(run, |saved| Some(100.0 * saved.time?), 1),
+            self.saved(run, |saved| saved.efficiency(), 2),
+            self.error(run),
+        ]
+    }
+
+    fn saved(&mut self, run: &Run, of: impl Fn(&Saved) -> Option<f64>, digits: usize) -> Cell {
+        if run.method == saving::AGAINST {
+            return self.absent("the others are compared with this one");
+        }
+        let Some(saved) = &run.saved else { return self.absent("no rc-ert run of this scene on the device") };
+        match of(saved) {
+            Some(number) => {
+                let clock = saved.clock.map_or("", Clock::words);
+                self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
+            }
+            None => self.absent("not timed, or no fragment was saved"),
+        }
+    }
+
+    fn share(&mut self, part: u64, whole: Option<u64>) -> Cell {
+        match whole.map(|whole| percent(part, whole)) {
+            Some(Some(percent)) => value(format!("{percent:.1}")),
+            Some(None) => self.absent(&format!("{BASELINE} has none to compare with")),
+            None => self.absent(&format!("no {BASELINE} run of this scene")),
+        }
+    }
+
+    fn time(&mut self, timing: Option<&Timing>, why: &str) -> Cell {
+        match timing {
+            Some(t) => {
+                let mad = t.stats.filter(|s| s.n > 1).map(|s| milliseconds(s.mad));
+                Cell { mad, ..value(milliseconds(t.value)) }
+            }
+            None => self.absent(why),
+        }
+    }
+
+    fn error(&mut self, run: &Run) -> Cell {
+        match &run.error {
+            None => self.absent("not compared with a reference"),
+            Some(error) => {
+                let text = if error.max == 0.0 { "0".to_string() } else { format!("{:.1e}", error.max) };
+                match error.undecided {
+                    0 => value(text),
+                    n => self.noted(
+                        &text,
+                        format!(
+                            "{} pixels in which f32 cannot decide what a sample meets are left out of the maximum",
+                            thousands(n)
+                        ),
+                    ),
+                }
+            }
+        }
+    }
+
+    fn absent(&mut self, why: &str) -> Cell {
+        self.noted("-", why.to_string())
+    }
+
+    fn noted(&mut self, text: &str, note: String) -> Cell {
+        let place = self.notes.iter().position(|n| *n == note).unwrap_or_else(|| {
+            self.notes.push(note);
+            self.notes.len() - 1
+        });
+        Cell { note: Some(place), ..value(text.to_string()) }
+    }
+}
+
+fn value(text: String) -> Cell {
+    Cell { text, mad: None, note: None }
+}

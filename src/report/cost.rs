@@ -1,0 +1,94 @@
+//! How what a method saves depends on the cost of a sample: the same scene with ever more extra fetches.
+
+use super::comparison::{RunGroup, label};
+use crate::measure::record::Run;
+use crate::measure::saving::AGAINST;
+
+/// Time of each method by extra fetches, in times of `rc-ert` with as many.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Extra fetches a sample, rising from 0.
+    pub costs: Vec<u32>,
+    pub rows: Vec<CostRow>,
+}
+
+/// One method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CostRow {
+    pub label: String,
+    /// Parts of the time of `rc-ert`, one for each cost; none where it was not timed.
+    pub times: Vec<Option<f64>>,
+}
+
+/// How many extra fetches a group's samples have.
+pub fn extra_fetches(group: &RunGroup) -> u32 {
+    group.first().settings.sampling.extra_fetches
+}
+
+/// What a run has in common with those that differ in cost and method only.
+fn apart_from_cost(run: &Run) -> impl PartialEq + use<> {
+    let mut run = run.clone();
+    run.settings.sampling.extra_fetches = 0;
+    (run.scene, run.view, run.device, run.driver, run.settings.sampling, run.settings.image)
+}
+
+/// The fewest extra fetches that the scene of `group` was run with.
+pub fn least_cost(group: &RunGroup, groups: &[RunGroup]) -> u32 {
+    let same = groups.iter().filter(|other| apart_from_cost(other.first()) == apart_from_cost(group.first()));
+    same.map(extra_fetches).min().unwrap_or_default()
+}
+
+impl Sweep {
+    /// Of the scene of `base`, among all groups; none where it was run with one cost only.
+    pub fn of(base: &RunGroup, groups: &[RunGroup]) -> Option<Self> {
+        let rule = apart_from_cost(base.first());
+        let mut same: Vec<&RunGroup> = groups.iter().filter(|group| apart_from_cost(group.first()) == rule).collect();
+        same.sort_by_key(|group| extra_fetches(group));
+        if same.len() < 2 {
+            return None;
+        }
+        let name = |run: &Run| run.form().map_or_else(|| label(run), |form| format!("{}, {form}", label(run)));
+        let time = |group: &&RunGroup, wanted: &str| {
+            let found = group.runs.iter().find(|(_, run)| name(run) == wanted)?;
+            Some(1.0 - found.1.saved.as_ref()?.time?)
+        };
+        let runs = base.runs.iter().map(|(_, run)| *run).filter(|run| run.method != AGAINST && run.method != "cpu");
+        let rows = runs.map(|run| {
+            let label = name(run);
+            CostRow { times: same.iter().map(|group| time(group, &label)).collect(), label }
+        });
+        Some(Self { costs: same.iter().map(|group| extra_fetches(group)).collect(), rows: rows.collect() })
+    }
+
+    /// The fewest extra fetches from which on a method is faster than `rc-ert`.
+    pub fn pays_from(&self, row: &CostRow) -> Option<u32> {
+        let faster = |time: &Option<f64>| time.is_some_and(|time| time < 1.0);
+        let slower = row.times.iter().rposition(|time| !faster(time));
+        self.costs.get(slower.map_or(0, |last| last + 1)).copied()
+    }
+
+    /// `pays from 4 extra fetches a sample on`.
+    pub fn words(&self, row: &CostRow) -> String {
+        match self.pays_from(row) {
+            Some(0) => "pays at any cost of a sample".to_owned(),
+            Some(from) => format!("pays from {from} extra fetches a sample on"),
+            None => format!("does not pay up to {} extra fetches a sample", self.costs.last().unwrap_or(&0)),
+        }
+    }
+
+    /// Lines of a table: a method, its times by cost, and where it starts to pay.
+    pub fn table(&self) -> Vec<Vec<String>> {
+        let cell = |time: &Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
+        let line = |row: &CostRow| {
+            let times = row.times.iter().map(cell);
+            std::iter::once(row.label.clone()).chain(times).chain([self.words(row)]).collect()
+        };
+        self.rows.iter().map(line).collect()
+    }
+
+    /// Its heading.
+    pub fn head(&self) -> Vec<String> {
+        let costs = self.costs.iter().map(u32::to_string);
+        std::iter::once("extra fetches".to_owned()).chain(costs).chain([String::new()]).collect()
+    }
+}

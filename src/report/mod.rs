@@ -1,0 +1,15 @@
+//! From records to what is read: the rows that every comparison shows, what they claim, pages and plots.
+//!
+//! 1. [`number`]: numbers as a reader wants them.
+//! 2. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
+//! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`]: what the runs come to, in sentences.
+//! 4. [`html`]: a page and its pieces. [`plot`]: plots as SVG.
+
+pub mod claim;
+pub mod comparison;
+pub mod cost;
+pub mod html;
+pub mod number;
+pub mod plot;
+
+pub use claim::{claims, verdict};

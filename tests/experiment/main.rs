@@ -1,0 +1,10 @@
+//! What each experiment makes of its record, and the battery of stiff scenes.
+
+mod accuracies;
+mod compares;
+mod orbits;
+mod probes;
+mod reproduce;
+#[path = "../measure/runs.rs"]
+mod runs;
+mod stability;

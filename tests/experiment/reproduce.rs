@@ -1,0 +1,168 @@
+//! The papers' numbers against each other, and the comparison of synthetic counts with them.
+
+use depthleap::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, PaperRow, VIEWPORT};
+use depthleap::experiment::reproduce::{
+    FORMAT, ReproducedSet, Reproduction, Shown, Variant, csv, lines, page, text, verdict,
+};
+use depthleap::measure::Picture;
+use depthleap::measure::record::{Counts, Ideal, Run};
+use depthleap::provenance::Provenance;
+
+use crate::runs::run;
+
+fn set(name: &str) -> &'static DataSet {
+    DATA_SETS.iter().find(|set| set.name == name).unwrap()
+}
+
+fn published(set: &DataSet, row: PaperRow) -> [u64; 2] {
+    let found = set.rows.iter().find(|published| published.row == row).unwrap();
+    [found.main, found.intermediate]
+}
+
+#[test]
+fn percentages_printed_in_the_thesis_follow_from_its_counts() {
+    let printed = [("MRI-Head", [86, 12]), ("Foot", [85, 22]), ("Engine", [60, 16]), ("Fuel", [52, 46])];
+    for (name, percents) in printed {
+        let (block, omni) = (published(set(name), PaperRow::Block), published(set(name), PaperRow::Omni));
+        for kind in 0..2 {
+            let percent = (100.0 * omni[kind] as f64 / block[kind] as f64).round() as u32;
+            assert_eq!(percent, percents[kind], "{name}");
+        }
+    }
+}
+
+#[test]
+fn block_skipping_runs_every_fragment_of_the_face_in_every_pass() {
+    for set in DATA_SETS.iter().filter(|set| !set.rows.is_empty()) {
+        let face = u64::from(set.face) * u64::from(set.face);
+        assert_eq!(published(set, PaperRow::Block)[1], face * u64::from(set.intermediate_passes), "{}", set.name);
+    }
+}
+
+#[test]
+fn faces_have_their_pixels_from_the_distance() {
+    for set in &DATA_SETS {
+        // The face lies half a side in front of the centre.
+        let height = 2.0 * (set.distance() - 0.5) * (0.5 * FOV.to_radians()).tan();
+        let pixels = f64::from(VIEWPORT) / height;
+        assert!((pixels - f64::from(set.face)).abs() < 1.0, "{}: {pixels} from {}", set.name, set.distance());
+    }
+    assert_eq!(set("Engine").distance(), 1.91);
+}
+
+#[test]
+fn passes_and_steps_fit_the_diagonal_of_the_cube() {
+    for set in &DATA_SETS {
+        let passes = (3f64.sqrt() / (8.0 * set.step)).ceil() as u32;
+        assert_eq!(passes, set.intermediate_passes + 1, "{}", set.name);
+    }
+}
+
+fn counted(method: &str, block_first: bool, main: u64, intermediate: u64) -> Run {
+    let mut run = run(method, &[], &[]);
+    run.fragments = Counts { main, intermediate, ..Counts::default() };
+    run.settings.method.block_first = block_first;
+    run.ideal = Some(Ideal { main: 10 });
+    run
+}
+
+fn variant(choice: &str, omni: u64) -> Variant {
+    let runs = vec![
+        counted("rc-block", false, 1000, 2000),
+        counted("rc-block", true, 500, 2100),
+        counted("nn-omni", false, omni, 400),
+    ];
+    Variant { choice: choice.to_owned(), value: "<1>".to_owned(), runs }
+}
+
+/// Everything absent but Engine.
+fn found() -> Reproduction {
+    let column = |set: &DataSet| ReproducedSet {
+        name: set.name.to_owned(),
+        source: set.source.to_owned(),
+        file: (set.name == "Engine").then(|| "engine_256cube.nrrd".to_owned()),
+        absent: (set.name != "Engine").then(|| format!("no {} & nothing else", set.name)),
+        variants: if set.name == "Engine" { vec![variant("main", 600), variant("threshold T", 900)] } else { vec![] },
+    };
+    Reproduction {
+        provenance: Provenance {
+            version: FORMAT,
+            program: "depthleap".to_owned(),
+            commit: "none".to_owned(),
+            command: "depthleap reproduce".to_owned(),
+            date: "2026-01-01T00:00:00Z".to_owned(),
+        },
+        columns: DATA_SETS.iter().map(column).collect(),
+    }
+}
+
+fn engine(found: &Reproduction) -> &ReproducedSet {
+    found.columns.iter().find(|column| column.name == "Engine").unwrap()
+}
+
+#[test]
+fn lines_have_both_sides_and_the_range_of_the_sweep() {
+    let found = found();
+    let main = lines(set("Engine"), engine(&found), true);
+    let omni = main.iter().find(|line| line.row == PaperRow::Omni).unwrap();
+    assert_eq!((omni.theirs, omni.ours), (Some(186_059), Some(600)));
+    assert_eq!((omni.our_ratio, omni.sweep), (Some(0.6), Some([0.6, 0.9])));
+    assert!((omni.their_ratio.unwrap() - 0.602).abs() < 1e-3);
+    let of = |row: PaperRow| main.iter().find(|line| line.row == row).map(|line| (line.theirs, line.ours));
+    assert_eq!(of(PaperRow::Ideal), Some((None, Some(10))));
+    assert_eq!(of(PaperRow::Directional), Some((Some(178_331), None)), "not counted here, and not made up");
+    let intermediate = lines(set("Engine"), engine(&found), false);
+    assert!(intermediate.iter().all(|line| line.row != PaperRow::Ideal), "the bound is one of main fragments");
+    let absent = lines(set("Foot"), &found.columns[1], true);
+    assert!(absent.iter().all(|line| line.ours.is_none() && line.sweep.is_none()) && absent.len() == 4);
+}
+
+#[test]
+fn verdict_tells_near_from_far() {
+    let found = found();
+    let main = verdict(&lines(set("Engine"), engine(&found), true)).unwrap();
+    assert_eq!(main, "within a factor of 1.5: nn-omni 60.0 % of block skipping, theirs 60.2 %.");
+    let mut far = found.clone();
+    far.columns[2].variants[0].runs[2].fragments.main = 100;
+    let far = verdict(&lines(set("Engine"), engine(&far), true)).unwrap();
+    assert!(far.starts_with("further apart: nn-omni 10.0 %") && far.contains("within the sweep"), "{far}");
+    assert_eq!(verdict(&lines(set("Foot"), &found.columns[1], true)), None);
+}
+
+#[test]
+fn text_and_page_name_what_is_absent() {
+    let found = found();
+    let text = text(&found);
+    assert!(text.contains("absent: no Foot & nothing else") && text.contains("186,059"), "{text}");
+    assert!(text.contains("60.0 to 90.0") && text.contains("What the thesis leaves open"), "{text}");
+    let picture = Picture::new([2, 1], vec![[0.5; 4]; 2]).unwrap();
+    let page = page(&found, &[Shown { column: 2, picture }]).unwrap();
+    assert!(page.contains("no Foot &amp; nothing else") && page.contains("&lt;1&gt;") && !page.contains("<1>"));
+    assert_eq!(page.matches("<img").count(), 1);
+}
+
+#[test]
+fn csv_has_a_line_for_every_number() {
+    let found = found();
+    let text = csv(&found).unwrap();
+    let mut reader = csv_reader(&text);
+    let rows: Vec<Vec<String>> = reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect();
+    let omni: Vec<&Vec<String>> =
+        rows.iter().filter(|row| row[0] == "Engine" && row[3] == "nn-omni" && row[4] == "main").collect();
+    assert_eq!(omni.len(), 2);
+    assert_eq!(omni[0][7..], ["186059", "0.601944", "600", "0.600000"]);
+    assert_eq!(omni[1][5..7], ["threshold T", "<1>"]);
+    assert_eq!(omni[1][10], "0.900000");
+    assert!(rows.iter().any(|row| row[0] == "Foot" && row[9].is_empty() && row[7] == "538173"));
+}
+
+fn csv_reader(text: &str) -> ::csv::Reader<&[u8]> {
+    ::csv::Reader::from_reader(text.as_bytes())
+}
+
+#[test]
+fn json_comes_back_as_it_was() {
+    let found = found();
+    let text = serde_json::to_string(&found).unwrap();
+    assert_eq!(serde_json::from_str::<Reproduction>(&text).unwrap(), found);
+}

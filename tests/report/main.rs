@@ -1,0 +1,6 @@
+//! From records to tables, plots and the report.
+
+mod pages;
+#[path = "../measure/runs.rs"]
+mod runs;
+mod savings;
