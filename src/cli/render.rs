@@ -7,13 +7,14 @@ use clap::Args;
 
 use super::open::DeviceOptions;
 use super::options::{MethodOptions, SceneOptions, scene_name};
-use super::output::{self, Progress, settings_in};
+use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::bench::table;
-use crate::measure::Run;
+use crate::experiment::folder::settings_in;
 use crate::measure::picture::Format;
-use crate::measure::runner::{Effort, Measured, Runner};
-use crate::measure::write::write_standard_error;
+use crate::measure::runner::{Effort, Runner};
+use crate::measure::write::{write_json, write_standard_error};
+use crate::measure::{Measured, Run};
 use crate::read;
 use crate::scene::Settings;
 use crate::scene::settings::MethodName;
@@ -81,7 +82,7 @@ impl Render {
         picture.write(&self.output, settings.image.background)?;
         if let Some(file) = &self.json {
             let folder = file.parent().unwrap_or(Path::new(""));
-            output::write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
+            write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
         }
         output::say("note", &run.scene, &run.notes);
         output::warn(std::slice::from_ref(&run));

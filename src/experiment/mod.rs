@@ -6,11 +6,22 @@
 //! 3. [`accuracy`]: error against run time. [`stability`]: stiff and extreme scenes.
 //! 4. [`mod@probe`]: what a driver culls before shading.
 //! 5. [`mod@compare`]: two results, of other devices or commits.
+//!
+//! An experiment writes its JSON and its pictures into a [`folder`] and then makes its pages of these alone, so that
+//! [`mod@render`] can make them again.
 
 pub mod accuracy;
 pub mod bench;
 pub mod compare;
+pub mod folder;
+mod host;
 pub mod orbit;
 pub mod probe;
+pub mod render;
 pub mod reproduce;
 pub mod stability;
+
+pub use host::Host;
+
+/// The file of a bench's results: their report takes the name that others have alone.
+const BENCH_JSON: &str = "results.json";

@@ -71,6 +71,26 @@ mod null_is_infinite {
     }
 }
 
+/// A picture of a run, kept beside the results.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PictureRecord {
+    /// Place of the run among the runs, from 0.
+    pub run: usize,
+    /// The PNG file, seen from the folder of the results.
+    pub file: String,
+    /// What differs from the reference; null where there is none.
+    pub difference: Option<DifferenceRecord>,
+}
+
+/// A picture of the differences of a run to its reference: grey, the largest of the channels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DifferenceRecord {
+    /// The PNG file, as that of the picture.
+    pub file: String,
+    /// What the differences were multiplied with.
+    pub gain: f64,
+}
+
 /// How a volume is kept on a device, and what that means for the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TextureRecord {

@@ -8,6 +8,7 @@ use super::error::compare;
 use super::frame_times::{gpu_times, host_times, pass_times};
 use super::law::law_of_skipping;
 use super::limits;
+use super::measured::Measured;
 use super::picture::Picture;
 use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
 use super::saving;
@@ -41,21 +42,6 @@ pub struct Checked {
     pub check: SelfCheck,
     /// How frames end early, where the user says so.
     pub early_end: Option<EarlyEnd>,
-}
-
-/// A run and its pictures.
-#[derive(Clone, Debug)]
-pub struct Measured {
-    pub run: Run,
-    pub picture: Picture,
-    /// The f64 twin's picture, where there is one.
-    pub reference: Option<Picture>,
-    /// Whether the self-check found the form right (or there is nothing to be wrong).
-    pub trusted: bool,
-    /// Pixels whose bits are not those of the first run that ends rays early too; none where there is no such run.
-    pub differing: Option<u64>,
-    /// Frames of an orbit whose picture is not that of the first such run.
-    pub differing_frames: Option<u64>,
 }
 
 /// One scene on one device; what its methods share is made once.

@@ -9,8 +9,8 @@ use super::decide::Culling;
 use super::marks::MarkCost;
 use super::measure::{Clock, Cost};
 use super::rule::Promise;
-use crate::error::{Error, Result};
-use crate::provenance::Provenance;
+use crate::error::Result;
+use crate::provenance::{self, Expected, Provenance};
 use crate::vulkan::DeviceInfo;
 
 /// The version of the format written here.
@@ -137,14 +137,7 @@ impl Line {
 /// # Errors
 /// When it is none, or one of another version.
 pub fn read(text: &str, name: &str) -> Result<Probe> {
-    #[derive(Deserialize)]
-    struct Head {
-        version: u32,
-    }
-    let wrong = |problem: String| Error::input(name, problem, "give a probe.json that this program wrote");
-    let head: Head = serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))?;
-    if head.version != FORMAT {
-        return Err(wrong(format!("has the format version {}, this program reads {FORMAT}", head.version)));
-    }
-    serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))
+    const REMEDY: &str = "give a probe.json that this program wrote";
+    let expected = Expected { what: "a result of a probe", version: FORMAT, remedies: [REMEDY; 2] };
+    provenance::read(name, text, &expected)
 }

@@ -81,6 +81,7 @@ pub fn results() -> Results {
             run("nn-omni", &[1_500, 1_500, 0], &[2_000, 500]),
             cpu,
         ],
+        pictures: Vec::new(),
     }
 }
 
