@@ -12,8 +12,9 @@
 //!
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
-//! Imports point one way: `error, math, provenance <- scene <- read, structure <- reference, shared`;
-//! `error <- glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- measure <- report <- experiment <- cli`.
+//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
+//! `error <- provenance, glsl, vulkan <- probe`; all of these `<- pass <- plan <- frame <- measure <- report <- experiment
+//! <- cli`.
 
 pub mod cli;
 pub mod error;

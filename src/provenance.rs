@@ -41,7 +41,7 @@ impl Provenance {
 
 /// What a reader of JSON takes, in words.
 #[derive(Clone, Copy, Debug)]
-pub struct Expected {
+pub struct DocumentFormat {
     /// `a results file`.
     pub what: &'static str,
     /// The version of its format.
@@ -54,7 +54,7 @@ pub struct Expected {
 ///
 /// # Errors
 /// When the text is not JSON, the format is of another version, or a key is missing or of another type.
-pub fn read<T: DeserializeOwned>(name: &str, text: &str, expected: &Expected) -> Result<T> {
+pub fn read<T: DeserializeOwned>(name: &str, text: &str, expected: &DocumentFormat) -> Result<T> {
     #[derive(Deserialize)]
     struct Head {
         version: u32,

@@ -10,7 +10,7 @@ use super::options::{MethodOptions, SceneOptions, is_scene_file, scene_name};
 use super::output::{self, Progress};
 use crate::error::Result;
 use crate::experiment::Host;
-use crate::experiment::accuracy::{Job, PAGES, keep, text};
+use crate::experiment::accuracy::{AccuracyJob, PAGES, keep, text};
 use crate::experiment::folder::write_pages;
 use crate::measure::write;
 use crate::scene::settings::MethodName;
@@ -77,7 +77,7 @@ impl AccuracyCommand {
         if self.scene_options.termination.is_none() && !of_a_file {
             settings.sampling.termination = TERMINATION;
         }
-        let job = Job {
+        let job = AccuracyJob {
             name: scene_name(&settings),
             settings,
             methods: self.method.clone(),

@@ -10,7 +10,7 @@ use super::options::{BENCH_METHODS, MethodOptions, SceneOptions, scene_name};
 use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::Host;
-use crate::experiment::bench::{self, Job, keep, table};
+use crate::experiment::bench::{self, BenchJob, keep, table};
 use crate::experiment::folder::write_pages;
 use crate::measure::{law, write};
 use crate::report::comparison::groups;
@@ -100,7 +100,7 @@ impl BenchCommand {
             self.method_options.apply(&mut settings);
             Ok((scene_name(&settings), settings))
         };
-        let job = Job {
+        let job = BenchJob {
             scenes: self.scenes.iter().map(scene).collect::<Result<_>>()?,
             methods: self.method.clone(),
             all_forms: self.forms == Forms::All,

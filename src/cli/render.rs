@@ -11,7 +11,7 @@ use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::bench::table;
 use crate::experiment::folder::settings_in;
-use crate::measure::picture::Format;
+use crate::measure::picture::PictureFormat;
 use crate::measure::runner::{Effort, Runner};
 use crate::measure::write::{write_json, write_standard_error};
 use crate::measure::{Measured, Run};
@@ -65,7 +65,7 @@ pub struct Render {
 
 impl Render {
     pub fn run(&self) -> Result<()> {
-        Format::of(&self.output)?;
+        PictureFormat::of(&self.output)?;
         let outputs: Vec<&Path> = std::iter::once(&self.output).chain(&self.json).map(PathBuf::as_path).collect();
         output::check(&outputs)?;
         let mut settings = match &self.from {

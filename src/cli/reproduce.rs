@@ -9,7 +9,7 @@ use super::output::{self, Progress};
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::write_pages;
-use crate::experiment::reproduce::{Job, PAGES, keep, text};
+use crate::experiment::reproduce::{PAGES, ReproduceJob, keep, text};
 use crate::measure::write;
 
 /// The papers' tables, theirs beside ours
@@ -41,7 +41,7 @@ pub struct ReproduceCommand {
 impl ReproduceCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
-        let job = Job { data: self.data.clone(), quick: self.quick };
+        let job = ReproduceJob { data: self.data.clone(), quick: self.quick };
         let progress = Progress::new();
         let counted = job.run(&Host {
             open: &|| self.device.open(),

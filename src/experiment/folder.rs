@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::{Error, Result};
-use crate::measure::picture::{Format, Picture};
+use crate::measure::picture::{Picture, PictureFormat};
 use crate::measure::write::{create_folder, write_atomically};
 use crate::read;
 use crate::report::html::{Pictures, Png};
@@ -25,11 +25,11 @@ const LARGEST_PICTURE: u64 = 3 << 28;
 pub struct Pages {
     /// The file of the results.
     pub json: &'static str,
-    pub make: fn(&Kept) -> Result<Vec<Page>>,
+    pub make: fn(&KeptResults) -> Result<Vec<Page>>,
 }
 
 /// What was kept of an experiment.
-pub struct Kept<'a> {
+pub struct KeptResults<'a> {
     pub folder: &'a Path,
     /// The file of the results, for errors.
     pub name: String,
@@ -76,7 +76,8 @@ pub fn write_pages(folder: &Path, experiments: &[&Pages]) -> Result<Written> {
     let mut pages = Vec::new();
     for experiment in experiments {
         let path = folder.join(experiment.json);
-        let kept = Kept { folder, name: path.display().to_string(), text: read::text(&path)?, pictures: &pictures };
+        let kept =
+            KeptResults { folder, name: path.display().to_string(), text: read::text(&path)?, pictures: &pictures };
         pages.extend((experiment.make)(&kept)?);
     }
     let mut reports = Vec::new();
@@ -96,7 +97,7 @@ pub fn keep_picture(folder: &Path, words: &[&str], picture: &Picture, background
     create_folder(&folder.join(PICTURES))?;
     let file = format!("{PICTURES}/{}.png", file_name(words));
     let of_file = |e: Error| Error { input: format!("picture {file}"), ..e };
-    let png = picture.encode(Format::Png, background).map_err(of_file)?;
+    let png = picture.encode(PictureFormat::Png, background).map_err(of_file)?;
     write_atomically(&folder.join(&file), &png)?;
     Ok(file)
 }

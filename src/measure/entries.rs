@@ -7,14 +7,14 @@ use crate::scene::texture::TextureChoice;
 
 /// Fragments or invocations of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counts {
+pub struct CountsRecord {
     pub main: u64,
     pub intermediate: u64,
     pub main_per_pass: Vec<u64>,
     pub intermediate_per_pass: Vec<u64>,
 }
 
-impl Counts {
+impl CountsRecord {
     /// From the counts of each pass, in the order of the passes.
     pub fn of(main_per_pass: Vec<u64>, intermediate_per_pass: Vec<u64>) -> Self {
         let sum = |counts: &[u64]| counts.iter().fold(0_u64, |sum, c| sum.saturating_add(*c));
@@ -120,7 +120,7 @@ impl TextureRecord {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct LeftOutRecord {
     pub what: String,
     pub why: String,
 }

@@ -4,7 +4,7 @@
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`law`]: skipping changes no picture; [`saving`]: what became of the fragments saved.
-//! 5. [`limits`]: whether a scene fits; [`write`]: files that are there completely or not at all.
+//! 5. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
 
 mod entries;
 pub mod error;

@@ -57,12 +57,12 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 pub use super::entries::{
-    Clock, Counts, DifferenceRecord, ErrorRecord, Ideal, LeftOut, OrbitFrame, PassTimes, PictureRecord, Saved,
-    TextureRecord,
+    Clock, CountsRecord, DifferenceRecord, ErrorRecord, Ideal, LeftOutRecord, OrbitFrame, PassTimes, PictureRecord,
+    Saved, TextureRecord,
 };
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
-use crate::provenance::{self, Expected, Provenance};
+use crate::provenance::{self, DocumentFormat, Provenance};
 use crate::scene::Settings;
 
 /// The version of the format written here.
@@ -79,8 +79,8 @@ pub struct Run {
     pub mark: Option<String>,
     /// N, main passes of the plan.
     pub passes: u32,
-    pub fragments: Counts,
-    pub invocations: Option<Counts>,
+    pub fragments: CountsRecord,
+    pub invocations: Option<CountsRecord>,
     /// Milliseconds by group of passes, with `total`.
     pub gpu_ms: Option<Timings>,
     pub gpu_ms_per_pass: Option<PassTimes>,
@@ -96,7 +96,7 @@ pub struct Run {
     pub driver: String,
     /// Verdict by form of the bounds test: `right`, what is wrong, or `not available`.
     pub self_check: BTreeMap<String, String>,
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutRecord>,
     pub plan: Vec<String>,
     pub notes: Vec<String>,
     /// What may make the picture mislead.
@@ -186,7 +186,7 @@ fn to_json(value: &impl Serialize) -> Result<String> {
 }
 
 fn from_json<T: DeserializeOwned>(name: &str, text: &str) -> Result<T> {
-    let expected = Expected {
+    let expected = DocumentFormat {
         what: "a results file",
         version: FORMAT,
         remedies: [

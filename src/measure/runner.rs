@@ -10,7 +10,7 @@ use super::law::law_of_skipping;
 use super::limits;
 use super::measured::Measured;
 use super::picture::Picture;
-use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
+use super::record::{CountsRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
 use super::warnings::warnings;
@@ -207,7 +207,7 @@ impl<'a> Runner<'a> {
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = entry.plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
-        let counted = |counts: frame::Counts| Counts::of(counts.main, counts.intermediate);
+        let counted = |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate);
         let run = Run {
             version: FORMAT,
             scene: self.name.clone(),
@@ -232,7 +232,7 @@ impl<'a> Runner<'a> {
                 .plan
                 .left_out
                 .iter()
-                .map(|l| LeftOut { what: l.what.clone(), why: l.why.clone() })
+                .map(|l| LeftOutRecord { what: l.what.clone(), why: l.why.clone() })
                 .collect(),
             plan: entry.plan.lines(),
             notes: self.notes(&entry),

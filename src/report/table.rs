@@ -56,7 +56,7 @@ pub struct Table {
 
 /// How a table stands in a text.
 #[derive(Clone, Debug)]
-pub struct Layout {
+pub struct TextLayout {
     /// Spaces in front of each line.
     pub indent: usize,
     /// Spaces between columns.
@@ -67,7 +67,7 @@ pub struct Layout {
     pub rule: bool,
 }
 
-impl Default for Layout {
+impl Default for TextLayout {
     fn default() -> Self {
         Self { indent: 0, gap: 2, least: Vec::new(), rule: false }
     }
@@ -106,7 +106,7 @@ impl Table {
     }
 
     /// For a terminal: heading, rows and footnotes.
-    pub fn text(&self, layout: &Layout) -> String {
+    pub fn text(&self, layout: &TextLayout) -> String {
         let (room, mut widths) = (self.room(), self.widths());
         for (width, least) in widths.iter_mut().zip(&layout.least) {
             *width = (*width).max(*least);

@@ -2,7 +2,7 @@
 
 use depthleap::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, PaperRow, VIEWPORT};
 use depthleap::experiment::reproduce::{FORMAT, ReproducedSet, Reproduction, Variant, csv, lines, page, text, verdict};
-use depthleap::measure::record::{Counts, Ideal, Run};
+use depthleap::measure::record::{CountsRecord, Ideal, Run};
 use depthleap::provenance::Provenance;
 use depthleap::report::html::Png;
 
@@ -58,7 +58,7 @@ fn passes_and_steps_fit_the_diagonal_of_the_cube() {
 
 fn counted(method: &str, block_first: bool, main: u64, intermediate: u64) -> Run {
     let mut run = run(method, &[], &[]);
-    run.fragments = Counts { main, intermediate, ..Counts::default() };
+    run.fragments = CountsRecord { main, intermediate, ..CountsRecord::default() };
     run.settings.method.block_first = block_first;
     run.ideal = Some(Ideal { main: 10 });
     run

@@ -4,10 +4,10 @@ use depthleap::experiment::bench::page as bench_page;
 use depthleap::experiment::bench::table;
 use depthleap::measure::HostTimes;
 use depthleap::measure::Results;
-use depthleap::measure::picture::Format;
-use depthleap::measure::record::Counts;
+use depthleap::measure::picture::PictureFormat;
+use depthleap::measure::record::CountsRecord;
 use depthleap::measure::record::DifferenceRecord;
-use depthleap::measure::record::LeftOut;
+use depthleap::measure::record::LeftOutRecord;
 use depthleap::measure::record::PictureRecord;
 use depthleap::report::comparison::groups;
 use depthleap::report::html::Png;
@@ -97,7 +97,7 @@ mod report {
         let difference = DifferenceRecord { file: "difference.png".into(), gain: 64.0 };
         let record =
             |run| PictureRecord { run, file: format!("{run}.png"), difference: (run == 1).then(|| difference.clone()) };
-        let bytes = picture([8, 6]).encode(Format::Png, [0.0; 3]).unwrap();
+        let bytes = picture([8, 6]).encode(PictureFormat::Png, [0.0; 3]).unwrap();
         let png = Png { bytes, size: [8, 6] };
         results.pictures = (0..results.runs.len()).map(record).collect();
         bench_page(&results, None, &|_| Ok(png.clone())).unwrap()
@@ -116,7 +116,7 @@ mod report {
     #[test]
     fn says_so_where_nothing_was_saved() {
         let mut results = results();
-        results.runs[1].fragments = Counts::of(vec![15_000], vec![20_000]);
+        results.runs[1].fragments = CountsRecord::of(vec![15_000], vec![20_000]);
         let text = page(&results);
         assert!(text.contains("25.0 % more main fragments") && text.contains("no fewer intermediate fragments"));
         results.runs.remove(1);
@@ -157,7 +157,7 @@ mod report {
             run.notes = vec![evil.into()];
             run.self_check = BTreeMap::from([(evil.into(), evil.into())]);
             run.memory = BTreeMap::from([(evil.into(), 1)]);
-            run.left_out = vec![LeftOut { what: evil.into(), why: evil.into() }];
+            run.left_out = vec![LeftOutRecord { what: evil.into(), why: evil.into() }];
             run.settings.volume.builtin = Some(evil.into());
             if let Some(gpu) = &mut run.gpu_ms {
                 gpu.0[0].0 = evil.into();

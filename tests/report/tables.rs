@@ -2,7 +2,7 @@
 
 use depthleap::provenance::Provenance;
 use depthleap::report::html::{Html, Intro};
-use depthleap::report::table::{Cell, Column, Layout, Table};
+use depthleap::report::table::{Cell, Column, Table, TextLayout};
 
 fn table() -> Table {
     let mut table =
@@ -23,8 +23,8 @@ fn text_stands_in_columns() {
     let expected =
         "name        upper\n              low\na<b>    1,000    \nlonger      2 (a)\nacross all\n(a) a note\n";
     let trimmed: Vec<&str> = expected.lines().map(str::trim_end).collect();
-    assert_eq!(table().text(&Layout::default()).lines().collect::<Vec<_>>(), trimmed);
-    let wide = table().text(&Layout { indent: 2, gap: 1, least: vec![8, 12], rule: true });
+    assert_eq!(table().text(&TextLayout::default()).lines().collect::<Vec<_>>(), trimmed);
+    let wide = table().text(&TextLayout { indent: 2, gap: 1, least: vec![8, 12], rule: true });
     assert_eq!(wide.lines().next().unwrap(), "  name            upper");
     assert_eq!(wide.lines().nth(2).unwrap(), format!("  {}", "-".repeat(21)));
 }

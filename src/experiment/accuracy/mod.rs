@@ -9,23 +9,23 @@ mod run;
 mod text;
 mod way;
 
-use super::folder::{Kept, Page, Pages};
+use super::folder::{KeptResults, Page, Pages};
 use crate::error::Result;
-use crate::provenance::{self, Expected};
+use crate::provenance::{self, DocumentFormat};
 
 pub use explain::{expected_order, remarks};
 pub use fit::{answers, fastest, fit, mark_pareto};
 pub use page::page;
 pub use plot::{Question, questions, step_svgs, time_svgs};
 pub use record::{Accuracy, Curve, FORMAT, Fit, Point};
-pub use run::{Job, keep};
+pub use run::{AccuracyJob, keep};
 pub use text::{csv, text};
 
 /// `accuracy.html`, `accuracy.csv`, and the plots as SVG.
 pub const PAGES: Pages = Pages { json: "accuracy.json", make };
 
-fn make(kept: &Kept) -> Result<Vec<Page>> {
-    let expected = Expected {
+fn make(kept: &KeptResults) -> Result<Vec<Page>> {
+    let expected = DocumentFormat {
         what: "a result of accuracy",
         version: FORMAT,
         remedies: ["give one that `accuracy` wrote", "read it with the program that wrote it, or measure again"],

@@ -140,7 +140,7 @@ fn panels(found: &Accuracy, of: impl Fn(&Point) -> Option<PlotPoint>) -> Vec<Pan
     let series = |(i, label): (usize, String)| PlotSeries {
         label,
         points: found.curves[i].points.iter().filter_map(&of).filter(|p| p.x > 0.0 && p.y > 0.0).collect(),
-        dashed: false,
+        dash: None,
     };
     let panel = |question: Question| Panel {
         title: question.title,
@@ -154,7 +154,7 @@ fn merged(all: Vec<PlotSeries>) -> Vec<PlotSeries> {
     let mut merged: Vec<PlotSeries> = Vec::new();
     for series in all {
         match merged.iter_mut().find(|other| other.points == series.points) {
-            Some(other) => other.label = format!("{}, {}", other.label, series.label),
+            Some(other) => other.label = format!("{} = {}", other.label, series.label),
             None => merged.push(series),
         }
     }
@@ -170,9 +170,9 @@ fn orders(series: &[PlotSeries]) -> Vec<PlotSeries> {
     if !best.is_finite() || least >= longest {
         return Vec::new();
     }
-    let line = |order: i32| {
+    let line = |order: i32, dash: u32| {
         let at = |x: f64| PlotPoint { x, y: best * (x / longest).powi(order), range: None, ring: false };
-        PlotSeries { label: format!("order {order}"), points: [longest, least].map(at).to_vec(), dashed: true }
+        PlotSeries { label: format!("order {order}"), points: [longest, least].map(at).to_vec(), dash: Some(dash) }
     };
-    vec![line(1), line(2)]
+    vec![line(1, 8), line(2, 3)]
 }

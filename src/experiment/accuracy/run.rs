@@ -23,7 +23,7 @@ use crate::scene::settings::{MethodName, MethodSettings, Settings};
 const FOR_ALL: usize = 3;
 
 /// What is to be measured.
-pub struct Job {
+pub struct AccuracyJob {
     pub name: String,
     pub settings: Settings,
     pub methods: Vec<MethodName>,
@@ -47,7 +47,7 @@ struct Asked<'a> {
     opaque: bool,
 }
 
-impl Job {
+impl AccuracyJob {
     /// What was found, and the picture of the exact integral.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{Accuracy, Curve, Point, answers};
 use crate::error::Result;
 use crate::report::number::{error, milliseconds, thousands};
-use crate::report::table::{Column, Layout, Table};
+use crate::report::table::{Column, Table, TextLayout};
 
 /// The pictures of a curve, a row each.
 pub(super) fn table(curve: &Curve) -> Table {
@@ -53,7 +53,7 @@ pub fn text(found: &Accuracy) -> String {
     // Writing to a string cannot fail.
     for curve in &found.curves {
         let _ = writeln!(out, "\n{}: {}", curve.name(), order(curve));
-        out += &table(curve).text(&Layout { indent: 2, ..Layout::default() });
+        out += &table(curve).text(&TextLayout { indent: 2, ..TextLayout::default() });
         curve.remarks.iter().for_each(|remark| {
             let _ = writeln!(out, "  - {remark}");
         });

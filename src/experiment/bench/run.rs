@@ -21,7 +21,7 @@ use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
 const GAIN: f64 = 100.0;
 
 /// What is to be run.
-pub struct Job {
+pub struct BenchJob {
     /// Each with its name.
     pub scenes: Vec<(String, Settings)>,
     pub methods: Vec<MethodName>,
@@ -40,7 +40,7 @@ pub struct Job {
     pub most_fetches: Option<u32>,
 }
 
-impl Job {
+impl BenchJob {
     /// # Errors
     /// When a scene or a method is refused, or the driver fails.
     pub fn run(&self, host: &Host) -> Result<Vec<Measured>> {

@@ -6,7 +6,7 @@ use crate::experiment::orbit::Summary;
 use crate::measure::Run;
 use crate::report::comparison::{self, RunGroup, groups, label};
 use crate::report::cost::{Sweep, extra_fetches, least_cost};
-use crate::report::table::Layout;
+use crate::report::table::TextLayout;
 
 /// One table a scene, with its footnotes; empty where there are no runs.
 pub fn table(runs: &[Run]) -> String {
@@ -21,14 +21,14 @@ pub fn table(runs: &[Run]) -> String {
 
 /// Times by the cost of a sample.
 fn cost_table(sweep: &Sweep) -> String {
-    format!("\nTime by the cost of a sample, rc-ert = 1\n{}", sweep.table().text(&Layout::default()))
+    format!("\nTime by the cost of a sample, rc-ert = 1\n{}", sweep.table().text(&TextLayout::default()))
 }
 
 fn group_table(group: &RunGroup) -> String {
     let run = group.first();
     let between = if run.driver.is_empty() { "" } else { ", " };
     let mut out = format!("{}\n{}\n{}{between}{}\n\n", run.scene, group.subtitle(), run.device, run.driver);
-    out += &comparison::table(group).text(&Layout { rule: true, ..Layout::default() });
+    out += &comparison::table(group).text(&TextLayout { rule: true, ..TextLayout::default() });
     let orbits: Vec<String> = group.runs.iter().filter_map(|(_, run)| orbit_line(run)).collect();
     if !orbits.is_empty() {
         let _ = writeln!(out, "\nOrbit, medians of a frame\n{}", orbits.join("\n"));

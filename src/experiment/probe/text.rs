@@ -6,7 +6,7 @@ use crate::measure::statistics::Statistics;
 use crate::probe::record::{Line, Probe};
 use crate::probe::{Culling, Fault, Mechanism};
 use crate::report::number::thousands;
-use crate::report::table::{Column, Layout, Table};
+use crate::report::table::{Column, Table, TextLayout};
 
 /// Lines of a probe as rows of a table.
 pub(super) fn table<'a>(lines: impl Iterator<Item = &'a Line>) -> Table {
@@ -24,7 +24,7 @@ pub fn text(probe: &Probe) -> String {
     for line in facts(probe) {
         let _ = writeln!(out, "  {}: {}", line.0, line.1);
     }
-    let layout = Layout { indent: 2, least: table(probe.lines.iter()).widths(), ..Layout::default() };
+    let layout = TextLayout { indent: 2, least: table(probe.lines.iter()).widths(), ..TextLayout::default() };
     for mechanism in Mechanism::ALL {
         let _ = writeln!(out, "\n{}", mechanism.words());
         let lines = || probe.lines.iter().filter(|line| line.case.mechanism == mechanism);

@@ -38,7 +38,7 @@ const CHOICES: [OpenChoice; 7] = [
 ];
 
 /// What is to be counted.
-pub struct Job {
+pub struct ReproduceJob {
     /// The folder of the volumes.
     pub data: Option<PathBuf>,
     /// Without the sweep over what the thesis leaves open.
@@ -48,7 +48,7 @@ pub struct Job {
 /// A data set, and its picture in the main configuration.
 pub type CountedSet = (ReproducedSet, Option<Picture>);
 
-impl Job {
+impl ReproduceJob {
     /// Data sets in the order of [`DATA_SETS`].
     ///
     /// # Errors

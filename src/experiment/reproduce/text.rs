@@ -7,7 +7,7 @@ use super::rows::{lines, ratio, verdict};
 use super::{FragmentLine, ReproducedSet, Reproduction};
 use crate::error::Result;
 use crate::report::number::thousands;
-use crate::report::table::{Column, Layout, Table};
+use crate::report::table::{Column, Table, TextLayout};
 
 /// The two passes, by what a table of the thesis counts.
 pub const KINDS: [(&str, bool); 2] = [("main", true), ("intermediate", false)];
@@ -67,7 +67,7 @@ const WIDTHS: [usize; 6] = [23, 11, 10, 11, 10, 16];
 
 /// All tables, the verdicts, what is absent, and what was left open.
 pub fn text(found: &Reproduction) -> String {
-    let layout = Layout { indent: 4, gap: 1, least: WIDTHS.to_vec(), rule: false };
+    let layout = TextLayout { indent: 4, gap: 1, least: WIDTHS.to_vec(), rule: false };
     let mut out = String::new();
     for (set, column) in present(found) {
         // Writing to a String cannot fail.

@@ -10,9 +10,9 @@ mod record;
 mod run;
 mod text;
 
-use super::folder::{Kept, Page, Pages};
+use super::folder::{KeptResults, Page, Pages};
 use crate::error::Result;
-use crate::provenance::{self, Expected};
+use crate::provenance::{self, DocumentFormat};
 
 pub use battery::battery;
 pub use case::{Expect, StabilityCase, Tolerance};
@@ -26,8 +26,8 @@ pub use text::{line, text};
 /// `stability.html`.
 pub const PAGES: Pages = Pages { json: "stability.json", make };
 
-fn make(kept: &Kept) -> Result<Vec<Page>> {
-    let expected = Expected {
+fn make(kept: &KeptResults) -> Result<Vec<Page>> {
+    let expected = DocumentFormat {
         what: "a result of stability",
         version: FORMAT,
         remedies: ["give one that `stability` wrote", "read it with the program that wrote it, or run it again"],

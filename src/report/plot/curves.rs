@@ -14,6 +14,8 @@ const LEGEND_LINE: i32 = 20;
 const LEGEND_TOP: i32 = 52;
 /// Characters of a legend's line.
 const LEGEND_CHARACTERS: usize = 36;
+/// Pixels between dashes.
+const DASH_GAP: u32 = 4;
 /// The least height of a panel.
 const PANEL: u32 = 380;
 
@@ -32,8 +34,8 @@ pub struct PlotPoint {
 pub struct PlotSeries {
     pub label: String,
     pub points: Vec<PlotPoint>,
-    /// A line to compare with, without marks.
-    pub dashed: bool,
+    /// Pixels of a dash, where it is a line to compare with, without marks.
+    pub dash: Option<u32>,
 }
 
 /// Curves that are held against each other.
@@ -118,8 +120,8 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel, [x, y]: [&Decades; 2], axes: AxisTit
     let logs = |x: f64, y: f64| (x.log10(), y.log10());
     for (i, series) in panel.series.iter().enumerate() {
         let line = series.points.iter().map(|p| logs(p.x, p.y));
-        if series.dashed {
-            chart.draw_series(DashedLineSeries::new(line, dash(i), 4, INK.mix(0.6).stroke_width(1)))?;
+        if let Some(dash) = series.dash {
+            chart.draw_series(DashedLineSeries::new(line, dash, DASH_GAP, INK.mix(0.6).stroke_width(1)))?;
         } else {
             chart.draw_series(LineSeries::new(line, color(i).stroke_width(2)))?;
         }
@@ -127,7 +129,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel, [x, y]: [&Decades; 2], axes: AxisTit
     // Marks after all lines, so that none is hidden; in pixels, so that their shape does not follow the axes.
     let pixels = area.strip_coord_spec();
     let (left, upper) = pixels.get_base_pixel();
-    for (i, series) in panel.series.iter().enumerate().filter(|(_, series)| !series.dashed) {
+    for (i, series) in panel.series.iter().enumerate().filter(|(_, series)| series.dash.is_none()) {
         for PlotPoint { x, y, range, ring } in &series.points {
             if let Some([least, most]) = range {
                 let whisker = PathElement::new([logs(*least, *y), logs(*most, *y)], INK.stroke_width(1));
@@ -144,18 +146,12 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel, [x, y]: [&Decades; 2], axes: AxisTit
     Ok(())
 }
 
-/// Pixels of a dash of the curve at a place in its panel: lines to compare with have dashes of their own.
-fn dash(i: usize) -> u32 {
-    if i.is_multiple_of(2) { 8 } else { 3 }
-}
-
 fn legend<'a>(area: &Area<'a>, all: &[PlotSeries]) -> Drawn<'a> {
     let mut y = LEGEND_TOP;
     for (i, series) in all.iter().enumerate() {
-        if series.dashed {
-            let length = dash(i) as i32;
-            for begin in (8..36).step_by(length as usize + 4) {
-                let ends = [(begin, y), ((begin + length).min(36), y)];
+        if let Some(dash) = series.dash {
+            for begin in (8..36).step_by((dash + DASH_GAP) as usize) {
+                let ends = [(begin, y), ((begin + dash as i32).min(36), y)];
                 area.draw(&PathElement::new(ends, INK.mix(0.6).stroke_width(1)))?;
             }
         } else {
@@ -170,10 +166,10 @@ fn legend<'a>(area: &Area<'a>, all: &[PlotSeries]) -> Drawn<'a> {
     Ok(())
 }
 
-/// A label in lines, broken after commas.
+/// A label in lines, broken between words.
 fn lines_of(label: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
-    for part in label.split_inclusive(", ") {
+    for part in label.split_inclusive(' ') {
         match lines.last_mut() {
             Some(line)
                 if line.is_empty() || line.chars().count() + part.trim_end().chars().count() <= LEGEND_CHARACTERS =>
