@@ -13,8 +13,8 @@
 //!
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
-//! Imports point one way: `error, math, provenance <- scene <- read, structure <- reference, shared`;
-//! `error <- glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- measure <- report
+//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
+//! `error <- provenance, glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- measure <- report
 //! <- experiment <- cli`.
 
 pub mod cli;

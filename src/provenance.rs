@@ -2,7 +2,10 @@
 
 use std::time::SystemTime;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
 
 /// The head of a results file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,6 +37,36 @@ impl Provenance {
     pub fn made_by(&self) -> String {
         format!("{}, commit {}", self.program, self.commit)
     }
+}
+
+/// What a reader of JSON takes, in words.
+#[derive(Clone, Copy, Debug)]
+pub struct DocumentFormat {
+    /// `a results file`.
+    pub what: &'static str,
+    /// The version of its format.
+    pub version: u32,
+    /// What to give instead, and instead of one of another version.
+    pub remedies: [&'static str; 2],
+}
+
+/// Reads JSON that has `version` among its keys; `name` is the file, for the error.
+///
+/// # Errors
+/// When the text is not JSON, the format is of another version, or a key is missing or of another type.
+pub fn read<T: DeserializeOwned>(name: &str, text: &str, expected: &DocumentFormat) -> Result<T> {
+    #[derive(Deserialize)]
+    struct Head {
+        version: u32,
+    }
+    let [instead, other_version] = expected.remedies;
+    let wrong = |e: serde_json::Error| Error::input(name, format!("is not {} ({e})", expected.what), instead);
+    let head: Head = serde_json::from_str(text).map_err(wrong)?;
+    if head.version != expected.version {
+        let problem = format!("has the format version {}, this program reads {}", head.version, expected.version);
+        return Err(Error::input(name, problem, other_version));
+    }
+    serde_json::from_str(text).map_err(wrong)
 }
 
 /// The words the program was started with, quoted where a shell would read them otherwise.

@@ -8,7 +8,7 @@ use std::path::Path;
 const MAY_IMPORT: [(&str, &[&str]); 21] = [
     ("error", &[]),
     ("math", &[]),
-    ("provenance", &[]),
+    ("provenance", &["error"]),
     ("scene", &["error", "math"]),
     ("read", &["error", "math", "scene"]),
     ("structure", &["error", "math", "scene"]),

@@ -3,7 +3,7 @@
 use depthleap::glsl;
 use depthleap::probe::case::{Case, Conservative, FORMATS, format_name};
 use depthleap::probe::correct::differences;
-use depthleap::probe::decide::{Measured, decide, doubtful, saved, tile, time_share};
+use depthleap::probe::decide::{MeasuredWork, decide, doubtful, saved, tile, time_share};
 use depthleap::probe::depth::{LEAST_NORMAL, Precision};
 use depthleap::probe::rig::{Input, Left};
 use depthleap::probe::rule::{Fragment, Promise, Setup};
@@ -162,8 +162,8 @@ fn patterns_reject_their_share() {
     assert!(Pattern::Checker(8).rejects([8, 0], side) && !Pattern::Checker(8).rejects([8, 8], side));
 }
 
-fn times(none: &[f64], all: &[f64]) -> Measured {
-    Measured { invocations: None, none_ms: none.to_vec(), all_ms: all.to_vec() }
+fn times(none: &[f64], all: &[f64]) -> MeasuredWork {
+    MeasuredWork { invocations: None, none_ms: none.to_vec(), all_ms: all.to_vec() }
 }
 
 #[test]
@@ -184,8 +184,8 @@ fn verdicts_by_time() {
 
 #[test]
 fn statistics_that_lie_are_not_believed() {
-    let early = Measured { invocations: Some([65_536, 65_536]), ..times(&[10.0, 10.1, 10.0], &[0.3, 0.2, 0.2]) };
-    let late = Measured { invocations: Some([65_536, 0]), ..times(&[10.0, 10.1, 10.0], &[9.8, 10.0, 10.1]) };
+    let early = MeasuredWork { invocations: Some([65_536, 65_536]), ..times(&[10.0, 10.1, 10.0], &[0.3, 0.2, 0.2]) };
+    let late = MeasuredWork { invocations: Some([65_536, 0]), ..times(&[10.0, 10.1, 10.0], &[9.8, 10.0, 10.1]) };
     for (measured, truth) in [(&early, Culling::Early), (&late, Culling::Late)] {
         // Found out by draws whose count is known, or else by the time.
         let unbelieved = decide(measured, false);
@@ -194,9 +194,9 @@ fn statistics_that_lie_are_not_believed() {
         assert_eq!((believed.culling, believed.by.as_str()), (truth, "time"));
         assert!(believed.remark.unwrap().contains("invocations say"));
     }
-    let honest = Measured { invocations: Some([65_536, 128]), ..times(&[10.0, 10.1, 10.0], &[0.3, 0.2, 0.2]) };
+    let honest = MeasuredWork { invocations: Some([65_536, 128]), ..times(&[10.0, 10.1, 10.0], &[0.3, 0.2, 0.2]) };
     assert_eq!(decide(&honest, true).by, "invocations and time");
-    let untimed = Measured { invocations: Some([65_536, 65_536]), ..Measured::default() };
+    let untimed = MeasuredWork { invocations: Some([65_536, 65_536]), ..MeasuredWork::default() };
     assert_eq!((decide(&untimed, true).culling, decide(&untimed, false).culling), (Culling::Late, Culling::Unclear));
 
     let known = Known { pixels: 4096, none: 4096, all: 0, half: 2048 };

@@ -9,7 +9,7 @@ use super::output;
 use crate::error::{Error, Result};
 use crate::experiment::compare::{compare, text};
 use crate::measure::record::FORMAT;
-use crate::measure::write::{is_standard_output, write_standard_output};
+use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::measure::{Results, Run};
 use crate::provenance::Provenance;
 use crate::read;
@@ -23,7 +23,7 @@ use crate::read;
   depthleap compare before after                  two folders of `bench`
   depthleap compare old/results.json new/results.json --json -
   depthleap compare a.json b.json                 two files of `render --json`")]
-pub struct Compare {
+pub struct CompareCommand {
     /// Folder of `bench`, its results.json, or a file of `render --json`
     #[arg(value_name = "A")]
     a: PathBuf,
@@ -38,7 +38,7 @@ pub struct Compare {
 /// The exit code of results whose counts differ.
 const DIFFERENT: u8 = 1;
 
-impl Compare {
+impl CompareCommand {
     /// # Errors
     /// When a file cannot be read or written.
     pub fn run(&self) -> Result<ExitCode> {
@@ -46,7 +46,7 @@ impl Compare {
         output::check(&outputs)?;
         let found = compare(&results(&self.a)?, &results(&self.b)?);
         if let Some(file) = &self.json {
-            output::write_json(file, &found)?;
+            write_json(file, &found)?;
         }
         if !self.json.as_deref().is_some_and(is_standard_output) {
             write_standard_output(text(&found).as_bytes())?;
@@ -66,7 +66,7 @@ fn results(path: &Path) -> Result<Results> {
         let unsaid = || "unknown".to_owned();
         let made =
             Provenance { version: FORMAT, program: unsaid(), commit: unsaid(), command: unsaid(), date: unsaid() };
-        Ok(Results { provenance: made, runs: vec![run] })
+        Ok(Results { provenance: made, runs: vec![run], pictures: Vec::new() })
     })
 }
 

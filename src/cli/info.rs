@@ -10,7 +10,7 @@ use super::output;
 use crate::error::Result;
 use crate::frame::{SelfCheck, self_check};
 use crate::measure::record::FORMAT;
-use crate::measure::write::{is_standard_output, write_standard_output};
+use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
 use crate::scene::texture::{FilterError, TexelFormat};
 use crate::vulkan::{Device, DeviceInfo, Instance, pick};
@@ -77,7 +77,7 @@ impl Info {
             });
         }
         if let Some(file) = &self.json {
-            output::write_json(file, &InfoJson { version: FORMAT, devices: list })?;
+            write_json(file, &InfoJson { version: FORMAT, devices: list })?;
             if is_standard_output(file) {
                 return Ok(());
             }

@@ -10,6 +10,7 @@ mod output;
 mod plan;
 mod probe;
 mod render;
+mod report;
 mod reproduce;
 mod stability;
 
@@ -42,6 +43,7 @@ const EXAMPLES: &str = "Examples:
   depthleap accuracy builtin:gaussian:64 -o out          error against run time
   depthleap stability -o out                             stiff and extreme cases
   depthleap compare before after                         what differs between two results
+  depthleap report out                                   the pages of a folder again, from its JSON
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
@@ -71,13 +73,14 @@ Environment:
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(Box<render::Render>),
-    Bench(Box<bench::Bench>),
-    Reproduce(Box<reproduce::Reproduce>),
-    Probe(Box<probe::Probe>),
-    Accuracy(Box<accuracy::Accuracy>),
-    Stability(Box<stability::Stability>),
-    Compare(compare::Compare),
-    Plan(Box<plan::Plan>),
+    Bench(Box<bench::BenchCommand>),
+    Reproduce(Box<reproduce::ReproduceCommand>),
+    Probe(Box<probe::ProbeCommand>),
+    Accuracy(Box<accuracy::AccuracyCommand>),
+    Stability(Box<stability::StabilityCommand>),
+    Compare(compare::CompareCommand),
+    Report(report::ReportCommand),
+    Plan(Box<plan::PlanCommand>),
     Info(info::Info),
 }
 
@@ -102,6 +105,7 @@ pub fn main() -> ExitCode {
         Command::Probe(command) => command.run(),
         Command::Accuracy(command) => command.run(),
         Command::Stability(command) => command.run(),
+        Command::Report(command) => command.run(),
         Command::Plan(command) => command.run(),
         Command::Info(command) => command.run(),
     };

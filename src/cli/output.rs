@@ -1,17 +1,15 @@
 //! Where commands write: files and standard output, checked before any work is done for nothing.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 
 use crate::error::{Error, Result, shown};
+use crate::experiment::folder::Written;
 use crate::measure::Run;
-use crate::measure::write::{check_file, is_standard_output, write_standard_error, write_standard_output};
-use crate::measure::write_atomically;
-use crate::scene::Settings;
+use crate::measure::write::{check_file, is_standard_output, write_standard_error};
 
 /// Whether all of `outputs` can be written, and no two of them to standard output.
 ///
@@ -30,39 +28,6 @@ pub fn check(outputs: &[&Path]) -> Result<()> {
     outputs.iter().filter(|o| !is_standard_output(o)).try_for_each(|o| check_file(o))
 }
 
-/// `value` as indented JSON, to a file or, for `-`, to standard output.
-///
-/// # Errors
-/// When it cannot be written.
-pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let mut json = serde_json::to_vec_pretty(value).map_err(|e| {
-        let problem = format!("cannot be written as JSON ({e})");
-        Error::output(path.display(), problem, "check paths for names that are not UTF-8")
-    })?;
-    json.push(b'\n');
-    if is_standard_output(path) { write_standard_output(&json) } else { write_atomically(path, &json) }
-}
-
-/// `settings` as a file in `folder` has them: relative paths are relative to it, as in a scene file.
-pub fn settings_in(folder: &Path, mut settings: Settings) -> Settings {
-    for file in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
-        if file.is_relative() {
-            *file = seen_from(folder, file).unwrap_or_else(|| file.clone());
-        }
-    }
-    settings
-}
-
-/// The way from `folder` to `file`, both of which exist.
-fn seen_from(folder: &Path, file: &Path) -> Option<PathBuf> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let (from, to) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
-    let shared = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
-    let up = from.components().skip(shared).map(|_| Path::new("..").as_os_str());
-    let down = to.components().skip(shared).map(|c| c.as_os_str());
-    Some(up.chain(down).collect())
-}
-
 /// Says what may make the runs' pictures mislead, on standard error, each thing once.
 pub fn warn(runs: &[Run]) {
     let mut said = BTreeSet::new();
@@ -76,6 +41,14 @@ pub fn say<'a>(what: &str, scene: &str, texts: impl IntoIterator<Item = &'a Stri
     for text in texts {
         write_standard_error(&format!("{what}: {}\n", shown(&format!("{scene}: {text}").replace('\n', "\\n"))));
     }
+}
+
+/// Where the pages are, a line each; pictures that are missing in them are named on standard error.
+pub fn reports(written: &Written) -> String {
+    for missing in &written.missing {
+        write_standard_error(&format!("warning: picture {}\n", shown(&missing.replace('\n', "\\n"))));
+    }
+    written.reports.iter().map(|report| format!("Report: {}\n", report.display())).collect()
 }
 
 /// What is being done, on a terminal; nothing on a pipe. Gone when dropped.

@@ -10,7 +10,7 @@ use super::options::{SceneOptions, method_parser, scene_name};
 use super::output;
 use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
-use crate::measure::write::{is_standard_output, write_standard_output};
+use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
 use crate::part::resource::Resource;
 use crate::part::{Constant, Step, Work};
@@ -28,7 +28,7 @@ use crate::scene::settings::MethodName;
   depthleap plan fuel.nrrd --method rc-block
   depthleap plan --method nn-omni --cull ztest --json plan.json
   depthleap plan scene.toml --json - | jq .passes")]
-pub struct Plan {
+pub struct PlanCommand {
     /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
@@ -104,7 +104,7 @@ struct ResourceJson {
     bytes: Option<u64>,
 }
 
-impl Plan {
+impl PlanCommand {
     pub fn run(&self) -> crate::Result<()> {
         let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
         output::check(&outputs)?;
@@ -118,7 +118,7 @@ impl Plan {
         output::say("note", &name, &plan::notes(&scene));
         output::say("warning", &name, &warnings);
         if let Some(file) = &self.json {
-            output::write_json(file, &to_json(&scene, &plan, warnings))?;
+            write_json(file, &to_json(&scene, &plan, warnings))?;
             if is_standard_output(file) {
                 return Ok(());
             }

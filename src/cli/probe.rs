@@ -5,26 +5,25 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::output::{Progress, write_json};
+use super::output::{self, Progress};
 use crate::error::{Error, Result};
-use crate::experiment::probe::{compare, page, text};
-use crate::measure::write::{self, write_atomically};
-use crate::probe::record::{self, DeviceRecord, FORMAT, Probe as Record};
-use crate::probe::run::{Found, probe};
-use crate::provenance::Provenance;
+use crate::experiment::folder::write_pages;
+use crate::experiment::probe::{PAGES, compare, keep, run, text};
+use crate::measure::write;
+use crate::probe::{Probe, record};
 
 /// What this driver culls before shading, and how fast
 ///
 /// Draws every mechanism that rejects fragments (depth, depth bounds and stencil test, discard) with every kind of shader
 /// that may forbid to do so early, in every depth format: whether picture, depths and counts are right, whether the shader
 /// runs for rejected fragments, in which patterns, and how many are rejected in a second. All of it is measured. Writes
-/// probe.json and report.html (probe.html beside the results of a bench, whose report shows it when the bench is run again).
+/// probe.json and report.html (probe.html beside the results of a bench, whose report shows it when it is made again: `depthleap report DIR`).
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap probe -o out
   depthleap probe --quick -o out
   depthleap probe --device nvidia --compare old/probe.json -o out")]
-pub struct Probe {
+pub struct ProbeCommand {
     /// Folder for the files; made where it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -38,38 +37,30 @@ pub struct Probe {
     device: DeviceOptions,
 }
 
-impl Probe {
+impl ProbeCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
         let other = self.compare.as_ref().map(|path| read(path)).transpose()?;
         let opened = self.device.open_unchecked()?;
         let progress = Progress::new();
-        let provenance = Provenance::now(FORMAT);
-        let found = probe(&opened, self.quick, &|what| progress.say(what));
+        let found = run(&opened, self.quick, &|what| progress.say(what));
         drop(progress);
-        let device = DeviceRecord::from(&opened.info);
         let instance = opened.instance().clone();
         drop(opened);
-        let Found { clock, statistics, work, sides, formats, lines, marks } = found?;
-        let record =
-            Record { provenance, device, clock, statistics, work, sides, quick: self.quick, formats, lines, marks };
+        let found = found?;
         DeviceOptions::judge(&instance)?;
-        write::create_folder(&self.output)?;
-        write_json(&self.output.join("probe.json"), &record)?;
-        // A bench's report takes the section in when it is made again.
-        let of_a_bench = self.output.join("results.json").exists();
-        let report = self.output.join(if of_a_bench { "probe.html" } else { "report.html" });
-        write_atomically(&report, page(&record).as_bytes())?;
-        let mut out = text(&record);
+        keep(&self.output, &found)?;
+        let written = write_pages(&self.output, &[&PAGES])?;
+        let mut out = text(&found);
         if let Some(other) = &other {
-            out += &format!("\nDifferences\n  {}\n", compare(&record, other).join("\n  "));
+            out += &format!("\nDifferences\n  {}\n", compare(&found, other).join("\n  "));
         }
-        out += &format!("\nReport: {}\n", report.display());
+        out += &format!("\n{}", output::reports(&written));
         write::write_standard_output(out.as_bytes())
     }
 }
 
-fn read(path: &std::path::Path) -> Result<Record> {
+fn read(path: &std::path::Path) -> Result<Probe> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path)
         .map_err(|e| Error::input(&name, format!("cannot be read ({e})"), "give a probe.json of another run"))?;

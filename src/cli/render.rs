@@ -7,13 +7,14 @@ use clap::Args;
 
 use super::open::DeviceOptions;
 use super::options::{SceneOptions, method_parser, scene_name};
-use super::output::{self, Progress, settings_in};
+use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::bench::table;
-use crate::measure::Run;
-use crate::measure::picture::Format;
-use crate::measure::runner::{Effort, Measured, Runner};
-use crate::measure::write::write_standard_error;
+use crate::experiment::folder::settings_in;
+use crate::measure::picture::PictureFormat;
+use crate::measure::runner::{Effort, Runner};
+use crate::measure::write::{write_json, write_standard_error};
+use crate::measure::{Measured, Run};
 use crate::method;
 use crate::read;
 use crate::scene::Settings;
@@ -63,7 +64,7 @@ pub struct Render {
 
 impl Render {
     pub fn run(&self) -> Result<()> {
-        Format::of(&self.output)?;
+        PictureFormat::of(&self.output)?;
         let outputs: Vec<&Path> = std::iter::once(&self.output).chain(&self.json).map(PathBuf::as_path).collect();
         output::check(&outputs)?;
         let mut settings = match &self.from {
@@ -79,7 +80,7 @@ impl Render {
         picture.write(&self.output, settings.image.background)?;
         if let Some(file) = &self.json {
             let folder = file.parent().unwrap_or(Path::new(""));
-            output::write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
+            write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
         }
         output::say("note", &run.scene, &run.notes);
         output::warn(std::slice::from_ref(&run));

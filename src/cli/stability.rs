@@ -1,20 +1,18 @@
 //! `depthleap stability`: stiff and extreme cases.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Args;
 
 use super::open::DeviceOptions;
 use super::options::method_parser;
-use super::output::{Progress, write_json};
+use super::output::{self, Progress};
 use crate::error::{Error, Result};
-use crate::experiment::stability::{
-    CaseRecord, FORMAT, OnDevice, Stability as Found, StabilityCase, StabilityVerdict, battery, judge, page, text,
-};
-use crate::measure::write::{self, write_atomically};
+use crate::experiment::Host;
+use crate::experiment::folder::write_pages;
+use crate::experiment::stability::{PAGES, StabilityCase, StabilityVerdict, battery, keep, run, text};
+use crate::measure::write;
 use crate::method;
-use crate::provenance::Provenance;
 use crate::scene::settings::MethodName;
 
 /// Stiff and extreme cases, each held against what it must give
@@ -28,7 +26,7 @@ use crate::scene::settings::MethodName;
   depthleap stability -o out
   depthleap stability --case corner --method rc,nn-omni -o out
   depthleap stability --list")]
-pub struct Stability {
+pub struct StabilityCommand {
     /// Folder for the files; made where it is missing
     #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
     output: Option<PathBuf>,
@@ -45,51 +43,39 @@ pub struct Stability {
     device: DeviceOptions,
 }
 
-impl Stability {
+impl StabilityCommand {
     pub fn run(&self) -> Result<()> {
         let cases = self.cases()?;
-        let Some(output) = self.output.as_ref().filter(|_| !self.list) else {
+        let Some(folder) = self.output.as_ref().filter(|_| !self.list) else {
             let lines: Vec<String> = cases
                 .iter()
                 .map(|case| format!("{}: {} (held against {})\n", case.group, case.name, case.expect.words()))
                 .collect();
             return write::write_standard_output(lines.concat().as_bytes());
         };
-        write::check_folder(output)?;
+        write::check_folder(folder)?;
         let methods =
             if self.method.is_empty() { &method::METHODS.map(|method| method.name())[..] } else { &self.method };
-        let checked = self.device.open()?;
         let progress = Progress::new();
-        let provenance = Provenance::now(FORMAT);
-        let mut records = Vec::with_capacity(cases.len());
-        let mut integrator = OnDevice::new(&checked);
-        for (i, case) in cases.iter().enumerate() {
-            progress.say(&format!("{} of {}: {}", i + 1, cases.len(), case.name));
-            let begin = Instant::now();
-            let outcomes = judge(case, methods, &mut integrator)?;
-            records.push(CaseRecord::new(case, outcomes, begin.elapsed().as_secs_f64() * 1e3));
-        }
+        let found = run(
+            &cases,
+            methods,
+            &Host {
+                open: &|| self.device.open(),
+                close: &|checked| self.device.close(checked),
+                say: &|what| progress.say(what),
+            },
+        )?;
         drop(progress);
-        drop(integrator);
-        let info = checked.device.info.clone();
-        self.device.close(checked)?;
-        let found = Found {
-            provenance,
-            device: info.name.clone(),
-            driver: format!("{} {}", info.driver_name, info.driver_info),
-            cases: records,
-        };
-        write::create_folder(output)?;
-        write_json(&output.join("stability.json"), &found)?;
-        let report = output.join("stability.html");
-        write_atomically(&report, page(&found).as_bytes())?;
-        write::write_standard_output(format!("{}Report: {}\n", text(&found), report.display()).as_bytes())?;
+        keep(folder, &found)?;
+        let written = write_pages(folder, &[&PAGES])?;
+        write::write_standard_output(format!("{}{}", text(&found), output::reports(&written)).as_bytes())?;
         match found.count(StabilityVerdict::Wrong) {
             0 => Ok(()),
             wrong => Err(Error::check(
                 format!("stability on {}", found.device),
                 format!("{wrong} of {} cases are wrong", found.cases.len()),
-                format!("see {}", report.display()),
+                format!("see {}", folder.join("stability.html").display()),
             )),
         }
     }

@@ -7,14 +7,14 @@ use crate::scene::texture::TextureChoice;
 
 /// Fragments or invocations of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counts {
+pub struct CountsRecord {
     pub main: u64,
     pub intermediate: u64,
     pub main_per_pass: Vec<u64>,
     pub intermediate_per_pass: Vec<u64>,
 }
 
-impl Counts {
+impl CountsRecord {
     /// From the counts of each pass, in the order of the passes.
     pub fn of(main_per_pass: Vec<u64>, intermediate_per_pass: Vec<u64>) -> Self {
         let sum = |counts: &[u64]| counts.iter().fold(0_u64, |sum, c| sum.saturating_add(*c));
@@ -71,6 +71,26 @@ mod null_is_infinite {
     }
 }
 
+/// A picture of a run, kept beside the results.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PictureRecord {
+    /// Place of the run among the runs, from 0.
+    pub run: usize,
+    /// The PNG file, seen from the folder of the results.
+    pub file: String,
+    /// What differs from the reference; null where there is none.
+    pub difference: Option<DifferenceRecord>,
+}
+
+/// A picture of the differences of a run to its reference: grey, the largest of the channels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DifferenceRecord {
+    /// The PNG file, as that of the picture.
+    pub file: String,
+    /// What the differences were multiplied with.
+    pub gain: f64,
+}
+
 /// How a volume is kept on a device, and what that means for the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TextureRecord {
@@ -100,7 +120,7 @@ impl TextureRecord {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct LeftOutRecord {
     pub what: String,
     pub why: String,
 }

@@ -1,7 +1,8 @@
 //! The law of skipping, held at run time.
 
+use super::measured::Measured;
 use super::record::Run;
-use super::runner::Measured;
+use crate::error::{Error, Result};
 
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
 /// and notes what was found.
@@ -20,4 +21,29 @@ pub fn law_of_skipping(measured: &mut [Measured]) {
             n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
         });
     }
+}
+
+/// Whether skipping changed no picture of a run whose form passed the self-check.
+///
+/// # Errors
+/// When it did.
+pub fn check(measured: &[Measured]) -> Result<()> {
+    let broken: Vec<String> = measured.iter().filter_map(broken).collect();
+    match broken.first() {
+        None => Ok(()),
+        Some(first) => Err(Error::check(
+            "law of skipping",
+            format!("{} run(s) changed the picture, the first: {first}", broken.len()),
+            "this is a bug in depthleap, in the driver or in a changed shader; the report has the pictures",
+        )),
+    }
+}
+
+/// How a run breaks the law.
+fn broken(one: &Measured) -> Option<String> {
+    let differs = |count: Option<u64>, what: &str| {
+        let count = count.filter(|n| one.trusted && *n > 0)?;
+        Some(format!("{}, {}: {count} {what}", one.run.scene, one.run.method))
+    };
+    differs(one.differing, "pixels").or_else(|| differs(one.differing_frames, "frames of the orbit"))
 }

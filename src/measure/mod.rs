@@ -1,16 +1,17 @@
-//! Measuring, and nothing else: [`runner`] runs frames and fills a [`record::Run`].
+//! Measuring, and nothing else: [`runner`] runs frames and leaves a [`record::Run`] with its pictures ([`measured`]).
 //!
 //! 1. [`record`]: one run and the results file; the reference of the format.
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`law`]: skipping changes no picture; [`saving`]: what became of the fragments saved.
-//! 5. [`limits`]: whether a scene fits; [`write`]: files that are there completely or not at all.
+//! 5. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
 
 mod entries;
 pub mod error;
 mod frame_times;
 pub mod law;
 pub mod limits;
+pub mod measured;
 pub mod picture;
 pub mod record;
 pub mod runner;
@@ -21,6 +22,7 @@ mod warnings;
 pub mod write;
 
 pub use error::{PictureError, compare};
+pub use measured::Measured;
 pub use picture::Picture;
 pub use record::{Results, Run};
 pub use statistics::Statistics;

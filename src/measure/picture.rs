@@ -20,7 +20,7 @@ pub struct Picture {
 
 /// The kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum PictureFormat {
     /// 8 bits a channel, sRGB, over a background.
     Png,
     /// OpenEXR, 32-bit float RGBA as it is.
@@ -29,7 +29,7 @@ pub enum Format {
     Npy,
 }
 
-impl Format {
+impl PictureFormat {
     /// By the extension. `-` is standard output as PNG; `-.png`, `-.exr` and `-.npy` name its format.
     ///
     /// # Errors
@@ -109,7 +109,7 @@ impl Picture {
     /// # Errors
     /// When the format is unknown, the picture is inconsistent, or the place cannot be written.
     pub fn write(&self, path: &Path, background: [f64; 3]) -> Result<()> {
-        let format = Format::of(path)?;
+        let format = PictureFormat::of(path)?;
         let bytes = self.encode(format, background)?;
         if is_standard_output(path) { write_standard_output(&bytes) } else { write_atomically(path, &bytes) }
     }
@@ -118,12 +118,12 @@ impl Picture {
     ///
     /// # Errors
     /// When the picture is inconsistent or its encoder refuses it.
-    pub fn encode(&self, format: Format, background: [f64; 3]) -> Result<Vec<u8>> {
+    pub fn encode(&self, format: PictureFormat, background: [f64; 3]) -> Result<Vec<u8>> {
         self.check()?;
         match format {
-            Format::Png => self.png(background).map_err(|e| refused("PNG", e)),
-            Format::Exr => self.exr().map_err(|e| refused("EXR", e)),
-            Format::Npy => self.npy().map_err(|e| refused("NPY", e)),
+            PictureFormat::Png => self.png(background).map_err(|e| refused("PNG", e)),
+            PictureFormat::Exr => self.exr().map_err(|e| refused("EXR", e)),
+            PictureFormat::Npy => self.npy().map_err(|e| refused("NPY", e)),
         }
     }
 

@@ -11,6 +11,7 @@
 //! | `command` | text | the command line |
 //! | `date` | text | when the runs began, ISO 8601 |
 //! | `runs` | array | the runs, in the order they were made |
+//! | `pictures` | array of {`run`, `file`, `difference`} | PNG files beside this one, by the places of their runs: see [`PictureRecord`] |
 //!
 //! # A run
 //!
@@ -55,10 +56,13 @@ use std::collections::BTreeMap;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-pub use super::entries::{Clock, Counts, ErrorRecord, Ideal, LeftOut, OrbitFrame, PassTimes, Saved, TextureRecord};
+pub use super::entries::{
+    Clock, CountsRecord, DifferenceRecord, ErrorRecord, Ideal, LeftOutRecord, OrbitFrame, PassTimes, PictureRecord,
+    Saved, TextureRecord,
+};
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
-use crate::provenance::Provenance;
+use crate::provenance::{self, DocumentFormat, Provenance};
 use crate::scene::Settings;
 
 /// The version of the format written here.
@@ -75,8 +79,8 @@ pub struct Run {
     pub mark: Option<String>,
     /// N, main passes of the plan.
     pub passes: u32,
-    pub fragments: Counts,
-    pub invocations: Option<Counts>,
+    pub fragments: CountsRecord,
+    pub invocations: Option<CountsRecord>,
     /// Milliseconds by group of passes, with `total`.
     pub gpu_ms: Option<Timings>,
     pub gpu_ms_per_pass: Option<PassTimes>,
@@ -92,7 +96,7 @@ pub struct Run {
     pub driver: String,
     /// Verdict by form of the bounds test: `right`, what is wrong, or `not available`.
     pub self_check: BTreeMap<String, String>,
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutRecord>,
     pub plan: Vec<String>,
     pub notes: Vec<String>,
     /// What may make the picture mislead.
@@ -116,6 +120,9 @@ pub struct Results {
     #[serde(flatten)]
     pub provenance: Provenance,
     pub runs: Vec<Run>,
+    /// Pictures that were kept beside the file.
+    #[serde(default)]
+    pub pictures: Vec<PictureRecord>,
 }
 
 impl Run {
@@ -179,20 +186,13 @@ fn to_json(value: &impl Serialize) -> Result<String> {
 }
 
 fn from_json<T: DeserializeOwned>(name: &str, text: &str) -> Result<T> {
-    #[derive(Deserialize)]
-    struct Head {
-        version: u32,
-    }
-    let bad = |e: serde_json::Error| {
-        Error::input(name, format!("is not a results file ({e})"), "give a file that `render --json` or `bench` wrote")
-    };
-    let head: Head = serde_json::from_str(text).map_err(bad)?;
-    if head.version != FORMAT {
-        return Err(Error::input(
-            name,
-            format!("has the format version {}, this program reads {FORMAT}", head.version),
+    let expected = DocumentFormat {
+        what: "a results file",
+        version: FORMAT,
+        remedies: [
+            "give a file that `render --json` or `bench` wrote",
             "read it with the program that wrote it, or make the runs again",
-        ));
-    }
-    serde_json::from_str(text).map_err(bad)
+        ],
+    };
+    provenance::read(name, text, &expected)
 }

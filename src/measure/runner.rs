@@ -8,8 +8,9 @@ use super::error::compare;
 use super::frame_times::{gpu_times, host_times, pass_times};
 use super::law::law_of_skipping;
 use super::limits;
+use super::measured::Measured;
 use super::picture::Picture;
-use super::record::{Counts, FORMAT, Ideal, LeftOut, Run, TextureRecord};
+use super::record::{CountsRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
 use super::warnings::warnings;
@@ -20,7 +21,6 @@ use crate::frame::{
 use crate::method;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
-use crate::part::rows::Method;
 use crate::plan::{self, Plan};
 use crate::scene::Scene;
 use crate::scene::settings::{Builder, Cull, MethodSettings, Settings};
@@ -43,22 +43,6 @@ pub struct Checked {
     pub check: SelfCheck,
     /// How frames end early, where the user says so.
     pub early_end: Option<EarlyEnd>,
-}
-
-/// A run and its pictures.
-#[derive(Clone, Debug)]
-pub struct Measured {
-    pub method: &'static Method,
-    pub run: Run,
-    pub picture: Picture,
-    /// The f64 twin's picture, where there is one.
-    pub reference: Option<Picture>,
-    /// Whether the self-check found the form right (or there is nothing to be wrong).
-    pub trusted: bool,
-    /// Pixels whose bits are not those of the first run that ends rays early too; none where there is no such run.
-    pub differing: Option<u64>,
-    /// Frames of an orbit whose picture is not that of the first such run.
-    pub differing_frames: Option<u64>,
 }
 
 /// One scene on one device; what its methods share is made once.
@@ -226,7 +210,7 @@ impl<'a> Runner<'a> {
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = entry.plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
-        let counted = |counts: frame::Counts| Counts::of(counts.main, counts.intermediate);
+        let counted = |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate);
         let run = Run {
             version: FORMAT,
             scene: self.name.clone(),
@@ -251,7 +235,7 @@ impl<'a> Runner<'a> {
                 .plan
                 .left_out
                 .iter()
-                .map(|l| LeftOut { what: l.what.clone(), why: l.why.clone() })
+                .map(|l| LeftOutRecord { what: l.what.clone(), why: l.why.clone() })
                 .collect(),
             plan: entry.plan.lines(),
             notes: self.notes(&entry),

@@ -4,6 +4,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use crate::error::{Error, Result};
 
 /// Whether a file of that name can be written, found out before work is done for nothing. Leaves nothing behind.
@@ -112,6 +114,19 @@ pub fn write_standard_output(bytes: &[u8]) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// `value` as indented JSON, to a file or, for `-`, to standard output.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let mut json = serde_json::to_vec_pretty(value).map_err(|e| {
+        let problem = format!("cannot be written as JSON ({e})");
+        Error::output(path.display(), problem, "check paths for names that are not UTF-8")
+    })?;
+    json.push(b'\n');
+    if is_standard_output(path) { write_standard_output(&json) } else { write_atomically(path, &json) }
 }
 
 /// Writes for the user to read. There is nobody left to tell where that fails.

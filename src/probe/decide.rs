@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What was measured of one case: nothing rejected, and all.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Measured {
+pub struct MeasuredWork {
     /// Invocations of the shader, where they are counted.
     pub invocations: Option<[u64; 2]>,
     /// Times of repeated draws.
@@ -39,7 +39,7 @@ impl Culling {
 
 /// A verdict and what it rests on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
+pub struct CullingVerdict {
     pub culling: Culling,
     /// `invocations and time`, `invocations`, `time`, or `nothing`.
     pub by: String,
@@ -57,11 +57,11 @@ const NOISE: f64 = 3.0;
 
 /// Invocations are trusted only where `believed` (see [`super::statistics`]). Where time is clear and says another
 /// thing, time is right: a driver that counts what it does not run, or does not count what it runs, cannot hide its work.
-pub fn decide(measured: &Measured, believed: bool) -> Verdict {
+pub fn decide(measured: &MeasuredWork, believed: bool) -> CullingVerdict {
     let counted = measured.invocations.filter(|[none, _]| believed && *none > 0);
     let counted = counted.map(|[none, all]| all as f64 / none as f64);
     let timed = time_share(measured);
-    let verdict = |culling, by: &str, share, remark| Verdict { culling, by: by.to_owned(), share, remark };
+    let verdict = |culling, by: &str, share, remark| CullingVerdict { culling, by: by.to_owned(), share, remark };
     match (counted, timed) {
         (Some(counted), Some(timed)) => {
             let (by_count, by_time) = (culling(counted), culling(timed));
@@ -95,7 +95,7 @@ fn culling(share: f64) -> Culling {
 
 /// The share by time; none where there are no times, or they are so noisy that another one would follow from others of
 /// them. Other work on the machine only ever adds to a time, so the least of each kind is the best one.
-pub fn time_share(measured: &Measured) -> Option<f64> {
+pub fn time_share(measured: &MeasuredWork) -> Option<f64> {
     let (none, all) = (extremes(&measured.none_ms)?, extremes(&measured.all_ms)?);
     if none[0] <= 0.0 {
         return None;

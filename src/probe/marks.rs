@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::case::{Case, Compare, Mechanism, Shader};
-use super::measure::{Clock, Timed, input};
+use super::measure::{ProbeClock, Timed, input};
 use super::pattern::Pattern;
 use super::rig::{ALL, Ask, FROM, Rig, TESTED, TO};
 use crate::error::Result;
@@ -28,7 +28,7 @@ const fn case(shader: Shader) -> Case {
 ///
 /// # Errors
 /// What the driver reports.
-pub fn mark_cost(device: &Arc<Device>, clock: Clock, side: u32, rounds: usize) -> Result<MarkCost> {
+pub fn mark_cost(device: &Arc<Device>, clock: ProbeClock, side: u32, rounds: usize) -> Result<MarkCost> {
     let mut rig = Rig::new(device, vk::Format::D32_SFLOAT, side)?;
     let (fragdepth, early) = (case(Shader::DepthLess), case(Shader::Early));
     let draw = input(&rig, &fragdepth, Pattern::None, 1);

@@ -6,7 +6,7 @@ use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 
 use super::case::{Case, History};
-use super::decide::{Measured, Verdict, decide, doubtful, saved, tile, time_share};
+use super::decide::{CullingVerdict, MeasuredWork, decide, doubtful, saved, tile, time_share};
 use super::pattern::Pattern;
 use super::rig::{Ask, Input, Rig};
 use super::statistics::{Known, doubt};
@@ -17,7 +17,7 @@ use crate::vulkan::{Commands, DeviceInfo, DeviceKind, Recorded};
 /// What times are taken with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Clock {
+pub enum ProbeClock {
     /// Timestamps around the render pass.
     Timestamps,
     /// CPU time of the process, all threads: a device that is a CPU shades on them, and other work does not disturb it.
@@ -26,7 +26,7 @@ pub enum Clock {
     Wall,
 }
 
-impl Clock {
+impl ProbeClock {
     pub fn of(info: &DeviceInfo) -> Self {
         match (info.kind, info.timestamp_valid_bits) {
             (DeviceKind::Cpu, _) => Self::ProcessCpu,
@@ -83,7 +83,7 @@ pub struct Cost {
     pub invocations: Option<[u64; 2]>,
     pub none_ms: Vec<f64>,
     pub all_ms: Vec<f64>,
-    pub verdict: Verdict,
+    pub verdict: CullingVerdict,
     /// Patterns, of a case that is culled early.
     pub mixed: Vec<Mixed>,
     /// Side of the squares from which on culling sets in.
@@ -128,17 +128,17 @@ impl Timed {
         Ok(Self::of(commands.finish()?))
     }
 
-    pub fn ms(&self, rig: &Rig, clock: Clock) -> Result<f64> {
+    pub fn ms(&self, rig: &Rig, clock: ProbeClock) -> Result<f64> {
         let device = rig.device();
         let (wall, cpu) = (Instant::now(), ProcessTime::now());
         device.graphics.submit(&self.recorded, &[])?.wait()?;
         let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
         Ok(match (clock, &rig.timestamps) {
-            (Clock::Timestamps, Some(pool)) => {
+            (ProbeClock::Timestamps, Some(pool)) => {
                 let ticks = pool.read(0..2)?;
                 device.elapsed_ms(ticks[0], ticks[1])
             }
-            (Clock::ProcessCpu, _) => cpu.as_secs_f64() * 1e3,
+            (ProbeClock::ProcessCpu, _) => cpu.as_secs_f64() * 1e3,
             _ => wall.as_secs_f64() * 1e3,
         })
     }
@@ -181,7 +181,7 @@ pub fn statistics(rig: &mut Rig) -> Result<Option<String>> {
 ///
 /// # Errors
 /// What the driver reports.
-pub fn work(rig: &mut Rig, clock: Clock) -> Result<u32> {
+pub fn work(rig: &mut Rig, clock: ProbeClock) -> Result<u32> {
     let mut work = 16;
     loop {
         let input = input(rig, &KNOWN, Pattern::None, work);
@@ -199,7 +199,7 @@ pub fn work(rig: &mut Rig, clock: Clock) -> Result<u32> {
 /// What is the same for all cases on a device.
 #[derive(Clone, Copy, Debug)]
 pub struct How {
-    pub clock: Clock,
+    pub clock: ProbeClock,
     pub work: u32,
     /// Invocations are believed.
     pub believed: bool,
@@ -212,7 +212,7 @@ pub struct How {
 /// # Errors
 /// What the driver reports.
 pub fn cost(rig: &mut Rig, case: &Case, how: &How) -> Result<Cost> {
-    let mut measured = Measured::default();
+    let mut measured = MeasuredWork::default();
     let ends = [Pattern::None, Pattern::All].map(|pattern| input(rig, case, pattern, how.work));
     if let (Some(none), Some(all)) = (invocations(rig, case, &ends[0])?, invocations(rig, case, &ends[1])?) {
         measured.invocations = Some([none, all]);
@@ -235,7 +235,7 @@ pub fn cost(rig: &mut Rig, case: &Case, how: &How) -> Result<Cost> {
     }
     // A shader that looks for itself is invoked in any case.
     let verdict = decide(&measured, how.believed && !case.mechanism.in_shader());
-    let Measured { invocations: counted, none_ms, all_ms } = measured;
+    let MeasuredWork { invocations: counted, none_ms, all_ms } = measured;
     let mut cost = Cost { invocations: counted, none_ms, all_ms, verdict, mixed: Vec::new(), tile: None };
     if how.mixed && cost.verdict.culling != super::Culling::Late {
         for pattern in Pattern::MIXED {
@@ -296,7 +296,7 @@ fn mixed(rig: &mut Rig, case: &Case, pattern: Pattern, how: &How, ends: &Cost) -
 ///
 /// # Errors
 /// What the driver reports.
-pub fn rejection_rate(rig: &mut Rig, case: &Case, clock: Clock) -> Result<Option<f64>> {
+pub fn rejection_rate(rig: &mut Rig, case: &Case, clock: ProbeClock) -> Result<Option<f64>> {
     let pixels = f64::from(rig.side) * f64::from(rig.side);
     let mut few = input(rig, case, Pattern::All, 1);
     let mut draws = 1;

@@ -25,7 +25,7 @@ pub mod statistics;
 
 pub use case::{Case, Compare, History, Mechanism, Shader};
 pub use correct::Fault;
-pub use decide::{Culling, Verdict};
+pub use decide::{Culling, CullingVerdict};
 pub use pattern::Pattern;
 pub use record::Probe;
 pub use rig::Rig;

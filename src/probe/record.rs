@@ -1,5 +1,5 @@
 //! `probe.json`: every number that was measured, and the reference of its format. Keys are those of the structures here
-//! and of [`Fault`], [`Cost`], [`Verdict`](super::Verdict), [`MarkCost`]; times are milliseconds, one for each repetition.
+//! and of [`Fault`], [`Cost`], [`CullingVerdict`](super::CullingVerdict), [`MarkCost`]; times are milliseconds, one for each repetition.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,10 +7,10 @@ use super::case::Case;
 use super::correct::Fault;
 use super::decide::Culling;
 use super::marks::MarkCost;
-use super::measure::{Clock, Cost};
+use super::measure::{Cost, ProbeClock};
 use super::rule::Promise;
-use crate::error::{Error, Result};
-use crate::provenance::Provenance;
+use crate::error::Result;
+use crate::provenance::{self, DocumentFormat, Provenance};
 use crate::vulkan::DeviceInfo;
 
 /// The version of the format written here.
@@ -23,7 +23,7 @@ pub struct Probe {
     pub provenance: Provenance,
     pub device: DeviceRecord,
     /// What `ms` are.
-    pub clock: Clock,
+    pub clock: ProbeClock,
     /// Why the driver's counts of shader invocations are not believed; null where they are.
     pub statistics: Option<String>,
     /// Rounds of work in a shader that is timed.
@@ -137,14 +137,7 @@ impl Line {
 /// # Errors
 /// When it is none, or one of another version.
 pub fn read(text: &str, name: &str) -> Result<Probe> {
-    #[derive(Deserialize)]
-    struct Head {
-        version: u32,
-    }
-    let wrong = |problem: String| Error::input(name, problem, "give a probe.json that this program wrote");
-    let head: Head = serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))?;
-    if head.version != FORMAT {
-        return Err(wrong(format!("has the format version {}, this program reads {FORMAT}", head.version)));
-    }
-    serde_json::from_str(text).map_err(|e| wrong(format!("is not a result of a probe ({e})")))
+    const REMEDY: &str = "give a probe.json that this program wrote";
+    let expected = DocumentFormat { what: "a result of a probe", version: FORMAT, remedies: [REMEDY; 2] };
+    provenance::read(name, text, &expected)
 }

@@ -6,7 +6,7 @@ use super::case::{Case, FORMATS, Mechanism, format_name};
 use super::correct::{Depth, faults};
 use super::decide::Culling;
 use super::marks::{MarkCost, mark_cost};
-use super::measure::{Clock, How, cost, rejection_rate, statistics, work};
+use super::measure::{How, ProbeClock, cost, rejection_rate, statistics, work};
 use super::record::{Correct, Line, Other};
 use super::rig::Rig;
 use crate::error::{Error, Result};
@@ -21,7 +21,7 @@ const MARKED: u32 = 512;
 
 /// What was found, without what the program knows of itself.
 pub struct Found {
-    pub clock: Clock,
+    pub clock: ProbeClock,
     pub statistics: Option<String>,
     pub work: u32,
     pub sides: [u32; 3],
@@ -50,7 +50,7 @@ pub fn missing(device: &Device, case: &Case) -> Option<String> {
 /// # Errors
 /// What the driver reports.
 pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Found> {
-    let clock = Clock::of(&device.info);
+    let clock = ProbeClock::of(&device.info);
     let rate_side = if device.info.is_cpu() { TIMED } else { 4 * TIMED };
     let mut benches = Vec::new();
     let possible: Vec<vk::Format> = FORMATS.into_iter().filter(|format| Rig::possible(device, *format)).collect();

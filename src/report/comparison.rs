@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::number::{milliseconds, percent, thousands};
+use super::table::{Cell, Column, Table};
 use crate::measure::record::{Clock, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
@@ -105,76 +106,51 @@ impl<'a> RunGroup<'a> {
     }
 }
 
-/// One column of the comparison: the two lines of its heading.
-#[derive(Clone, Copy, Debug)]
-pub struct Column {
-    pub head: [&'static str; 2],
-    /// Numbers stand right, words left.
-    pub right: bool,
-}
-
-const fn column(upper: &'static str, lower: &'static str, right: bool) -> Column {
-    Column { head: [upper, lower], right }
-}
-
-pub const COLUMNS: [Column; 15] = [
-    column("", "method", false),
-    column("", "cull + mark", false),
-    column("main", "passes", true),
-    column("main", "fragments", true),
-    column("% of", BASELINE, true),
-    column("intermediate", "fragments", true),
-    column("% of", BASELINE, true),
-    column("shader", "invocations", true),
-    column("GPU", "ms", true),
-    column("CPU", "ms", true),
-    column("build", "ms", true),
-    column("fragments", "saved %", true),
-    column("time", "saved %", true),
-    column("culling", "efficiency", true),
-    column("largest", "error", true),
+/// The columns: the two lines of a heading, and whether numbers stand below.
+const COLUMNS: [(&str, &str, bool); 15] = [
+    ("", "method", false),
+    ("", "cull + mark", false),
+    ("main", "passes", true),
+    ("main", "fragments", true),
+    ("% of", BASELINE, true),
+    ("intermediate", "fragments", true),
+    ("% of", BASELINE, true),
+    ("shader", "invocations", true),
+    ("GPU", "ms", true),
+    ("CPU", "ms", true),
+    ("build", "ms", true),
+    ("fragments", "saved %", true),
+    ("time", "saved %", true),
+    ("culling", "efficiency", true),
+    ("largest", "error", true),
 ];
 
-/// A cell; `note` is the place of its footnote, `mad` the spread beside a median.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cell {
-    pub text: String,
-    pub mad: Option<String>,
-    pub note: Option<usize>,
-}
-
 /// The comparison of one group.
-#[derive(Clone, Debug)]
-pub struct Grid {
-    pub rows: Vec<[Cell; 15]>,
-    /// What the marks `(a)`, `(b)`, ... stand for.
-    pub notes: Vec<String>,
+pub fn table(group: &RunGroup) -> Table {
+    let head =
+        |(upper, lower, right): (&str, &str, bool)| Column { head: vec![upper.to_owned(), lower.to_owned()], right };
+    let mut sheet = Sheet(Table::new(COLUMNS.map(head).to_vec()));
+    sheet.fill(group);
+    sheet.0
 }
 
-/// `a` for the first footnote, `b` for the second, ...
-pub fn note_mark(note: usize) -> String {
-    match u8::try_from(note) {
-        Ok(n) if n < 26 => char::from(b'a' + n).to_string(),
-        _ => format!("n{}", note + 1),
-    }
-}
+/// A comparison that is being written.
+struct Sheet(Table);
 
-impl Grid {
-    pub fn of(group: &RunGroup) -> Self {
-        let mut grid = Self { rows: Vec::new(), notes: Vec::new() };
+impl Sheet {
+    fn fill(&mut self, group: &RunGroup) {
         let baseline = group.baseline();
         for (_, run) in &group.runs {
-            let row = grid.row(run, baseline);
-            grid.rows.push(row);
+            let row = self.row(run, baseline);
+            self.0.row(row);
         }
         for ideal in group.ideals() {
             let mut row: [Cell; 15] = std::array::from_fn(|_| Cell::default());
-            row[0] = grid.noted("ideal", "lower bound: the segments that hold a contributing sample; no method".into());
+            row[0] = self.noted("ideal", "lower bound: the segments that hold a contributing sample; no method".into());
             row[3] = value(thousands(ideal));
-            row[4] = grid.share(ideal, baseline.map(|b| b.fragments.main));
-            grid.rows.push(row);
+            row[4] = self.share(ideal, baseline.map(|b| b.fragments.main));
+            self.0.row(row);
         }
-        grid
     }
 
     fn row(&mut self, run: &Run, baseline: Option<&Run>) -> [Cell; 15] {
@@ -228,8 +204,8 @@ impl Grid {
     fn time(&mut self, timing: Option<&Timing>, why: &str) -> Cell {
         match timing {
             Some(t) => {
-                let mad = t.stats.filter(|s| s.n > 1).map(|s| milliseconds(s.mad));
-                Cell { mad, ..value(milliseconds(t.value)) }
+                let spread = t.stats.filter(|s| s.n > 1).map(|s| milliseconds(s.mad));
+                Cell { spread, ..value(milliseconds(t.value)) }
             }
             None => self.absent(why),
         }
@@ -259,14 +235,14 @@ impl Grid {
     }
 
     fn noted(&mut self, text: &str, note: String) -> Cell {
-        let place = self.notes.iter().position(|n| *n == note).unwrap_or_else(|| {
-            self.notes.push(note);
-            self.notes.len() - 1
+        let place = self.0.notes.iter().position(|n| *n == note).unwrap_or_else(|| {
+            self.0.notes.push(note);
+            self.0.notes.len() - 1
         });
         Cell { note: Some(place), ..value(text.to_string()) }
     }
 }
 
 fn value(text: String) -> Cell {
-    Cell { text, mad: None, note: None }
+    Cell::from(text)
 }

@@ -1,6 +1,7 @@
 //! How what a method saves depends on the cost of a sample: the same scene with ever more extra fetches.
 
 use super::comparison::{RunGroup, label};
+use super::table::{Column, Table};
 use crate::measure::record::Run;
 use crate::measure::saving::AGAINST;
 
@@ -76,19 +77,16 @@ impl Sweep {
         }
     }
 
-    /// Lines of a table: a method, its times by cost, and where it starts to pay.
-    pub fn table(&self) -> Vec<Vec<String>> {
+    /// A method, its times by cost, and where it starts to pay.
+    pub fn table(&self) -> Table {
+        let costs = self.costs.iter().map(|cost| Column::numbers(cost.to_string()));
+        let columns = [Column::words("extra fetches")].into_iter().chain(costs).chain([Column::words("")]);
+        let mut table = Table::new(columns.collect());
         let cell = |time: &Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
-        let line = |row: &CostRow| {
+        for row in &self.rows {
             let times = row.times.iter().map(cell);
-            std::iter::once(row.label.clone()).chain(times).chain([self.words(row)]).collect()
-        };
-        self.rows.iter().map(line).collect()
-    }
-
-    /// Its heading.
-    pub fn head(&self) -> Vec<String> {
-        let costs = self.costs.iter().map(u32::to_string);
-        std::iter::once("extra fetches".to_owned()).chain(costs).chain([String::new()]).collect()
+            table.row(std::iter::once(row.label.clone()).chain(times).chain([self.words(row)]));
+        }
+        table
     }
 }

@@ -3,7 +3,7 @@
 //! 1. [`number`]: numbers as a reader wants them.
 //! 2. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
 //! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`]: what the runs come to, in sentences.
-//! 4. [`html`]: a page and its pieces. [`plot`]: plots as SVG.
+//! 4. [`table`]: rows under columns, as text, CSV and HTML. [`html`]: a page and its pieces. [`plot`]: plots as SVG.
 
 pub mod claim;
 pub mod comparison;
@@ -11,5 +11,6 @@ pub mod cost;
 pub mod html;
 pub mod number;
 pub mod plot;
+pub mod table;
 
 pub use claim::{claims, verdict};

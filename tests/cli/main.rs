@@ -5,6 +5,7 @@ mod input;
 mod options;
 mod output;
 mod program;
+mod report;
 mod volume;
 
 use program::Place;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use depthleap::probe::case::Case;
 use depthleap::probe::correct::{Depth, faults};
-use depthleap::probe::measure::{Clock, How, cost, statistics};
+use depthleap::probe::measure::{How, ProbeClock, cost, statistics};
 use depthleap::probe::record::{self, Line, Probe};
 use depthleap::probe::run::missing;
 use depthleap::probe::{Compare, Culling, Mechanism, Rig, Shader};
@@ -129,8 +129,8 @@ fn lacking_device(device: &Arc<Device>) {
         ..device.info.clone()
     };
     let lacking = Device::new(device.instance(), &info, true).unwrap();
-    let clock = Clock::of(&lacking.info);
-    assert!(lacking.info.is_cpu() || clock == Clock::Wall);
+    let clock = ProbeClock::of(&lacking.info);
+    assert!(lacking.info.is_cpu() || clock == ProbeClock::Wall);
     let mut rig = Rig::new(&lacking, vk::Format::D32_SFLOAT, 64).unwrap();
     assert_eq!(statistics(&mut rig).unwrap().as_deref(), Some("the device has none"));
     let case = |mechanism, shader| Case { mechanism, shader, compare: Compare::GreaterOrEqual };
@@ -143,7 +143,7 @@ fn lacking_device(device: &Arc<Device>) {
     let found = cost(&mut rig, &early, &how).unwrap();
     assert_eq!((found.invocations, found.verdict.by.as_str()), (None, "time"));
     // And a wall clock serves too, where it must.
-    let found = cost(&mut rig, &early, &How { clock: Clock::Wall, mixed: false, ..how }).unwrap();
+    let found = cost(&mut rig, &early, &How { clock: ProbeClock::Wall, mixed: false, ..how }).unwrap();
     assert!(found.none_ms.iter().all(|ms| *ms > 0.0));
 }
 

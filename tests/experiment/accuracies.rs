@@ -1,14 +1,15 @@
 //! Orders, answers and explanations of error against run time.
 
 use depthleap::experiment::accuracy::{
-    Accuracy, Curve, FORMAT, Point, answers, csv, expected_order, fastest, fit, mark_pareto, page, remarks, step_svg,
-    text, time_svg,
+    Accuracy, Curve, FORMAT, Point, Question, answers, csv, expected_order, fastest, fit, mark_pareto, page, questions,
+    remarks, step_svgs, text, time_svgs,
 };
 use depthleap::measure::picture::similarity;
 use depthleap::measure::record::Clock;
 use depthleap::method;
 use depthleap::provenance::Provenance;
 use depthleap::read;
+use depthleap::report::plot::DISTINCT;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Alpha, Filter, Last, Offset, Settings};
 
@@ -140,6 +141,7 @@ fn found() -> Accuracy {
         curves,
         remarks: vec!["of all".into()],
         settings: Settings::default(),
+        picture: None,
     }
 }
 
@@ -167,7 +169,7 @@ fn files_say_what_was_found() {
     let found = found();
     let json = serde_json::to_string(&found).unwrap();
     assert_eq!(serde_json::from_str::<Accuracy>(&json).unwrap(), found);
-    let (table, html) = (text(&found), page(&found).unwrap());
+    let (table, html) = (text(&found), page(&found, &|_| Err(String::new())).unwrap());
     for part in ["order 1.00 over steps 1 to 0.25 (theory: 1)", "15.00 ± 1.50 *", "of all", "a remark <here>"] {
         assert!(table.contains(part), "{part} is not in\n{table}");
     }
@@ -175,12 +177,65 @@ fn files_say_what_was_found() {
     let rows = csv(&found).unwrap();
     assert_eq!(rows.lines().count(), 7);
     assert!(rows.lines().nth(4).unwrap().starts_with("nn-omni,midpoint,1,8,0.002,0.0002"), "{rows}");
-    let (time, step) = (time_svg(&found).unwrap().unwrap(), step_svg(&found).unwrap().unwrap());
+    let (time, step) = (time_svgs(&found).unwrap().concat(), step_svgs(&found).unwrap().concat());
     assert!(time.contains("time of a frame / ms") && time.contains("nn-omni, midpoint"));
     assert!(step.contains("step / voxels") && step.contains("order 2"));
     let mut empty = found;
     empty.curves.clear();
-    assert_eq!((time_svg(&empty).unwrap(), step_svg(&empty).unwrap()), (None, None));
+    assert_eq!((time_svgs(&empty).unwrap(), step_svgs(&empty).unwrap()), (vec![], vec![]));
+}
+
+/// A curve of a method in a way of sampling.
+fn sampled(method: &str, variation: &str, change: fn(&mut Settings)) -> Curve {
+    let mut curve = found().curves[0].clone();
+    (curve.method, curve.variation) = (method.to_owned(), variation.to_owned());
+    change(&mut curve.settings);
+    curve
+}
+
+/// No question has two curves of one label, or more than there are colours; every curve stands somewhere.
+fn check(questions: &[Question], curves: &[Curve]) {
+    let mut shown = vec![false; curves.len()];
+    for question in questions {
+        let mut labels: Vec<&String> = question.curves.iter().map(|(_, label)| label).collect();
+        assert!((1..=DISTINCT).contains(&labels.len()), "{question:?}");
+        labels.sort();
+        labels.dedup();
+        assert_eq!(labels.len(), question.curves.len(), "{question:?}");
+        question.curves.iter().for_each(|(i, _)| shown[*i] = true);
+    }
+    assert!(shown.iter().all(|shown| *shown), "{shown:?} of {questions:?}");
+}
+
+#[test]
+fn curves_are_held_against_each_other_a_question_at_a_time() {
+    let mut curves: Vec<Curve> = ["rc", "rc-ert", "nn-omni"].map(|method| sampled(method, "", |_| {})).to_vec();
+    curves.extend(["rc", "rc-ert"].map(|method| sampled(method, "midpoint", |s| s.sampling.offset = Offset::Midpoint)));
+    curves.push(sampled("rc", "rgba8", |s| s.image.accumulate = Accumulate::Rgba8));
+    let titles = |curves: &[Curve]| questions(curves).into_iter().map(|question| question.title).collect::<Vec<_>>();
+    check(&questions(&curves), &curves);
+    assert_eq!(
+        titles(&curves),
+        ["Methods", "Methods, midpoint", "Ways of sampling, rc", "Formats of voxels and colours, rc"]
+    );
+    // A way that another method alone was run in is asked of that method.
+    curves.push(sampled("nn-omni", "exact filter", |s| s.sampling.filter = Filter::Exact));
+    check(&questions(&curves), &curves);
+    assert!(titles(&curves).contains(&"Ways of sampling, nn-omni".to_owned()));
+    // One alone, and very many.
+    check(&questions(&curves[..1]), &curves[..1]);
+    let many: Vec<Curve> = (0..50).map(|i| sampled("rc", &format!("way {i}"), |_| {})).collect();
+    check(&questions(&many), &many);
+    assert_eq!(questions(&[]), []);
+}
+
+#[test]
+fn curves_with_the_same_errors_are_one() {
+    let mut found = found();
+    found.curves = ["rc", "rc-ert", "nn-omni"].map(|method| sampled(method, "", |_| {})).to_vec();
+    found.curves[0].points[0].rmse = Some(0.5);
+    let svg = step_svgs(&found).unwrap().concat();
+    assert!(svg.contains("rc-ert = nn-omni") && !svg.contains("rc = "), "{svg}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod accuracies;
 mod compares;
+mod folders;
 mod orbits;
 mod probes;
 mod reproduce;

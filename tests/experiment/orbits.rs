@@ -1,6 +1,6 @@
 //! An orbit in a few numbers, and where it shows.
 
-use depthleap::experiment::bench::{ReportInput, report_html, table};
+use depthleap::experiment::bench::{page, table};
 use depthleap::experiment::orbit::Summary;
 use depthleap::measure::Results;
 use depthleap::measure::record::OrbitFrame;
@@ -47,8 +47,7 @@ fn orbits_are_in_the_table_the_report_and_the_file() {
     assert!(!table(&results.runs).contains("Orbit"));
     results.runs[1].orbit = Some(frames());
     assert!(table(&results.runs).contains("4 frames, 2 by omni, 2 by cone"));
-    let input = ReportInput { title: "orbit", results: &results, pictures: &[], differences: &[], probe: None };
-    let page = report_html(&input).unwrap();
+    let page = page(&results, None, &|file| Err(format!("no {file}"))).unwrap();
     assert!(page.contains("Fragments of each frame of an orbit") && page.contains("frames of the orbit"));
     let text = results.to_json().unwrap();
     assert_eq!(Results::from_json("results.json", &text).unwrap(), results);

@@ -4,9 +4,9 @@ use depthleap::experiment::probe::{compare, page, summary, text};
 use depthleap::probe::case::Case;
 use depthleap::probe::correct::Fault;
 use depthleap::probe::marks::MarkCost;
-use depthleap::probe::measure::{Clock, Cost, Mixed};
+use depthleap::probe::measure::{Cost, Mixed, ProbeClock};
 use depthleap::probe::record::{self, Correct, DeviceRecord, FORMAT, Line, Probe};
-use depthleap::probe::{Compare, Culling, History, Mechanism, Shader, Verdict};
+use depthleap::probe::{Compare, Culling, CullingVerdict, History, Mechanism, Shader};
 use depthleap::provenance::Provenance;
 
 fn case(mechanism: Mechanism, shader: Shader) -> Case {
@@ -19,7 +19,7 @@ fn record() -> Probe {
         invocations: Some([65_536, 0]),
         none_ms: vec![10.0; 3],
         all_ms: vec![10.0 * share; 3],
-        verdict: Verdict { culling, by: "time".into(), share: Some(share), remark: None },
+        verdict: CullingVerdict { culling, by: "time".into(), share: Some(share), remark: None },
         mixed: Vec::new(),
         tile: None,
     };
@@ -75,7 +75,7 @@ fn record() -> Probe {
             pipeline_statistics: true,
             timestamp_valid_bits: 64,
         },
-        clock: Clock::Timestamps,
+        clock: ProbeClock::Timestamps,
         statistics: None,
         work: 100,
         sides: [64, 256, 256],

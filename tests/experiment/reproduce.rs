@@ -1,12 +1,10 @@
 //! The papers' numbers against each other, and the comparison of synthetic counts with them.
 
 use depthleap::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, PaperRow, VIEWPORT};
-use depthleap::experiment::reproduce::{
-    FORMAT, ReproducedSet, Reproduction, Shown, Variant, csv, lines, page, text, verdict,
-};
-use depthleap::measure::Picture;
-use depthleap::measure::record::{Counts, Ideal, Run};
+use depthleap::experiment::reproduce::{FORMAT, ReproducedSet, Reproduction, Variant, csv, lines, page, text, verdict};
+use depthleap::measure::record::{CountsRecord, Ideal, Run};
 use depthleap::provenance::Provenance;
+use depthleap::report::html::Png;
 
 use crate::runs::run;
 
@@ -60,7 +58,7 @@ fn passes_and_steps_fit_the_diagonal_of_the_cube() {
 
 fn counted(method: &str, block_first: bool, main: u64, intermediate: u64) -> Run {
     let mut run = run(method, &[], &[]);
-    run.fragments = Counts { main, intermediate, ..Counts::default() };
+    run.fragments = CountsRecord { main, intermediate, ..CountsRecord::default() };
     run.settings.method.block_first = block_first;
     run.ideal = Some(Ideal { main: 10 });
     run
@@ -82,6 +80,7 @@ fn found() -> Reproduction {
         source: set.source.to_owned(),
         file: (set.name == "Engine").then(|| "engine_256cube.nrrd".to_owned()),
         absent: (set.name != "Engine").then(|| format!("no {} & nothing else", set.name)),
+        picture: (set.name == "Engine").then(|| "pictures/engine.png".to_owned()),
         variants: if set.name == "Engine" { vec![variant("main", 600), variant("threshold T", 900)] } else { vec![] },
     };
     Reproduction {
@@ -130,15 +129,20 @@ fn verdict_tells_near_from_far() {
 }
 
 #[test]
-fn text_and_page_name_what_is_absent() {
+fn text_and_page_show_what_is_there_and_then_what_is_absent() {
     let found = found();
     let text = text(&found);
-    assert!(text.contains("absent: no Foot & nothing else") && text.contains("186,059"), "{text}");
-    assert!(text.contains("60.0 to 90.0") && text.contains("What the thesis leaves open"), "{text}");
-    let picture = Picture::new([2, 1], vec![[0.5; 4]; 2]).unwrap();
-    let page = page(&found, &[Shown { column: 2, picture }]).unwrap();
+    let at = |part: &str| text.find(part).unwrap_or_else(|| panic!("no {part} in {text}"));
+    assert!(at("Engine (Thesis") == 0 && at("186,059") < at("Absent"), "{text}");
+    assert!(at("60.0 to 90.0") < at("Absent") && at("Absent") < at("What the thesis leaves open"), "{text}");
+    let absent: Vec<&str> = text.lines().filter(|line| line.contains("& nothing else")).collect();
+    assert_eq!(absent.len(), DATA_SETS.len() - 1, "a line each: {text}");
+    assert!(absent[1].contains("Foot: no Foot & nothing else (Thesis"), "{}", absent[1]);
+    assert!(absent[1].contains("rc-block 538,173 / 9,891,936"), "what the thesis counted: {}", absent[1]);
+    let page = page(&found, &|_| Ok(Png { bytes: vec![1], size: [2, 1] }));
     assert!(page.contains("no Foot &amp; nothing else") && page.contains("&lt;1&gt;") && !page.contains("<1>"));
     assert_eq!(page.matches("<img").count(), 1);
+    assert!(page.find("<h2>Engine").unwrap() < page.find("<h2>Absent").unwrap());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use depthleap::measure::Picture;
 use depthleap::measure::compare;
 use depthleap::measure::error::difference;
-use depthleap::measure::picture::Format;
+use depthleap::measure::picture::PictureFormat;
 use depthleap::measure::write_atomically;
 use std::path::Path;
 
@@ -81,7 +81,7 @@ mod picture_files {
     #[test]
     fn png_is_srgb_over_the_background() {
         let p = Picture::new([3, 1], vec![[0.0; 4], [0.2, 0.0, 0.0, 0.5], [2.0, f32::NAN, 0.5, 1.0]]).unwrap();
-        let bytes = p.encode(Format::Png, [1.0, 0.5, 0.0]).unwrap();
+        let bytes = p.encode(PictureFormat::Png, [1.0, 0.5, 0.0]).unwrap();
         let read = image::load_from_memory(&bytes).unwrap().into_rgb8();
         assert_eq!(read.dimensions(), (3, 1));
         // sRGB of 0.5 is 187.5, of 0.25 136.96, of 0.7 217.9.
@@ -93,7 +93,7 @@ mod picture_files {
     #[test]
     fn exr_holds_the_floats() {
         let p = picture([7, 5]);
-        let bytes = p.encode(Format::Exr, [1.0; 3]).unwrap();
+        let bytes = p.encode(PictureFormat::Exr, [1.0; 3]).unwrap();
         let read = image::load_from_memory_with_format(&bytes, image::ImageFormat::OpenExr).unwrap().into_rgba32f();
         assert_eq!(read.dimensions(), (7, 5));
         assert_eq!(read.as_raw().as_slice(), p.pixels.as_flattened());
@@ -102,7 +102,7 @@ mod picture_files {
     #[test]
     fn npy_holds_the_floats() {
         let p = picture([7, 5]);
-        let bytes = p.encode(Format::Npy, [1.0; 3]).unwrap();
+        let bytes = p.encode(PictureFormat::Npy, [1.0; 3]).unwrap();
         let file = npyz::NpyFile::new(&bytes[..]).unwrap();
         assert_eq!(file.shape(), [5, 7, 4]);
         assert_eq!(file.into_vec::<f32>().unwrap(), p.pixels.as_flattened());
@@ -124,9 +124,9 @@ mod picture_files {
             let error = picture([1, 1]).write(Path::new(name), [0.0; 3]).unwrap_err().to_string();
             assert!(error.contains(word) && error.contains(".png, .exr or .npy"), "{error}");
         }
-        assert_eq!(Format::of(Path::new("-")).unwrap(), Format::Png);
-        assert_eq!(Format::of(Path::new("-.npy")).unwrap(), Format::Npy);
-        assert_eq!(Format::of(Path::new("A.EXR")).unwrap(), Format::Exr);
+        assert_eq!(PictureFormat::of(Path::new("-")).unwrap(), PictureFormat::Png);
+        assert_eq!(PictureFormat::of(Path::new("-.npy")).unwrap(), PictureFormat::Npy);
+        assert_eq!(PictureFormat::of(Path::new("A.EXR")).unwrap(), PictureFormat::Exr);
     }
 
     #[test]

@@ -6,11 +6,11 @@ use depthleap::measure::Results;
 use depthleap::measure::Run;
 use depthleap::measure::Timing;
 use depthleap::measure::Timings;
-use depthleap::measure::record::Counts;
+use depthleap::measure::record::CountsRecord;
 use depthleap::measure::record::ErrorRecord;
 use depthleap::measure::record::FORMAT;
 use depthleap::measure::record::Ideal;
-use depthleap::measure::record::LeftOut;
+use depthleap::measure::record::LeftOutRecord;
 use depthleap::measure::record::PassTimes;
 use depthleap::provenance::Provenance;
 use depthleap::scene::Settings;
@@ -31,8 +31,8 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         cull: Some(if near { "bounds" } else { "ztest" }.into()),
         mark: near.then(|| "copy".into()),
         passes: main.len() as u32,
-        fragments: Counts::of(main.to_vec(), intermediate.to_vec()),
-        invocations: near.then(|| Counts::of(main.to_vec(), intermediate.to_vec())),
+        fragments: CountsRecord::of(main.to_vec(), intermediate.to_vec()),
+        invocations: near.then(|| CountsRecord::of(main.to_vec(), intermediate.to_vec())),
         gpu_ms: Some(gpu),
         gpu_ms_per_pass: Some(PassTimes { main: vec![1.0, 2.0], intermediate: vec![0.5] }),
         host: HostTimes {
@@ -54,7 +54,7 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         device: "llvmpipe".into(),
         driver: "Mesa 22.3.6".into(),
         self_check: BTreeMap::from([("bounds + copy".into(), "right".into())]),
-        left_out: vec![LeftOut { what: "depth_peel".into(), why: "no translucent polygons".into() }],
+        left_out: vec![LeftOutRecord { what: "depth_peel".into(), why: "no translucent polygons".into() }],
         plan: vec![" 1 ray_setup".into(), " 2 main_pass #0".into()],
         notes: vec!["software driver".into()],
         texture: None,
@@ -81,6 +81,7 @@ pub fn results() -> Results {
             run("nn-omni", &[1_500, 1_500, 0], &[2_000, 500]),
             cpu,
         ],
+        pictures: Vec::new(),
     }
 }
 

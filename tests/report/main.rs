@@ -4,3 +4,4 @@ mod pages;
 #[path = "../measure/runs.rs"]
 mod runs;
 mod savings;
+mod tables;

@@ -1,15 +1,16 @@
 //! Tables, plots and the report.
 
-use depthleap::experiment::bench::Difference;
-use depthleap::experiment::bench::ReportInput;
-use depthleap::experiment::bench::report_html;
+use depthleap::experiment::bench::page as bench_page;
 use depthleap::experiment::bench::table;
 use depthleap::measure::HostTimes;
-use depthleap::measure::Picture;
 use depthleap::measure::Results;
-use depthleap::measure::record::Counts;
-use depthleap::measure::record::LeftOut;
+use depthleap::measure::picture::PictureFormat;
+use depthleap::measure::record::CountsRecord;
+use depthleap::measure::record::DifferenceRecord;
+use depthleap::measure::record::LeftOutRecord;
+use depthleap::measure::record::PictureRecord;
 use depthleap::report::comparison::groups;
+use depthleap::report::html::Png;
 use depthleap::report::plot::fragments_svg;
 use depthleap::report::plot::times_svg;
 use std::collections::BTreeMap;
@@ -90,12 +91,16 @@ mod plots {
 mod report {
     use super::*;
 
+    /// With a picture for each run, and a difference for the second.
     fn page(results: &Results) -> String {
-        let pictures: Vec<_> = (0..results.runs.len()).map(|i| (i, picture([8, 6]))).collect();
-        let differences = [Difference { run: 1, gain: 64.0, picture: picture([8, 6]) }];
-        let title = "Depth-bounds culling";
-        report_html(&ReportInput { title, results, pictures: &pictures, differences: &differences, probe: None })
-            .unwrap()
+        let mut results = results.clone();
+        let difference = DifferenceRecord { file: "difference.png".into(), gain: 64.0 };
+        let record =
+            |run| PictureRecord { run, file: format!("{run}.png"), difference: (run == 1).then(|| difference.clone()) };
+        let bytes = picture([8, 6]).encode(PictureFormat::Png, [0.0; 3]).unwrap();
+        let png = Png { bytes, size: [8, 6] };
+        results.pictures = (0..results.runs.len()).map(record).collect();
+        bench_page(&results, None, &|_| Ok(png.clone())).unwrap()
     }
 
     #[test]
@@ -111,7 +116,7 @@ mod report {
     #[test]
     fn says_so_where_nothing_was_saved() {
         let mut results = results();
-        results.runs[1].fragments = Counts::of(vec![15_000], vec![20_000]);
+        results.runs[1].fragments = CountsRecord::of(vec![15_000], vec![20_000]);
         let text = page(&results);
         assert!(text.contains("25.0 % more main fragments") && text.contains("no fewer intermediate fragments"));
         results.runs.remove(1);
@@ -152,7 +157,7 @@ mod report {
             run.notes = vec![evil.into()];
             run.self_check = BTreeMap::from([(evil.into(), evil.into())]);
             run.memory = BTreeMap::from([(evil.into(), 1)]);
-            run.left_out = vec![LeftOut { what: evil.into(), why: evil.into() }];
+            run.left_out = vec![LeftOutRecord { what: evil.into(), why: evil.into() }];
             run.settings.volume.builtin = Some(evil.into());
             if let Some(gpu) = &mut run.gpu_ms {
                 gpu.0[0].0 = evil.into();
@@ -173,11 +178,11 @@ mod report {
     }
 
     #[test]
-    fn names_the_run_whose_picture_is_broken() {
-        let results = results();
-        let pictures = [(1, Picture { size: [3, 3], pixels: Vec::new() })];
-        let input = ReportInput { title: "t", results: &results, pictures: &pictures, differences: &[], probe: None };
-        let error = report_html(&input).unwrap_err().to_string();
-        assert!(error.contains("picture of fuel, nn-omni"), "{error}");
+    fn says_which_pictures_are_missing() {
+        let mut results = results();
+        results.pictures = vec![PictureRecord { run: 1, file: "pictures/<b>.png".into(), difference: None }];
+        let page = bench_page(&results, None, &|_| Err("there is no such file".into())).unwrap();
+        assert!(page.contains("The picture pictures/&lt;b&gt;.png is missing: there is no such file."), "{page}");
+        assert!(!page.contains("<img"));
     }
 }

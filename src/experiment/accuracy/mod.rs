@@ -5,11 +5,39 @@ mod fit;
 mod page;
 mod plot;
 mod record;
+mod run;
 mod text;
+mod way;
+
+use super::folder::{KeptResults, Page, Pages};
+use crate::error::Result;
+use crate::provenance::{self, DocumentFormat};
 
 pub use explain::{expected_order, remarks};
 pub use fit::{answers, fastest, fit, mark_pareto};
 pub use page::page;
-pub use plot::{step_svg, time_svg};
+pub use plot::{Question, questions, step_svgs, time_svgs};
 pub use record::{Accuracy, Curve, FORMAT, Fit, Point};
+pub use run::{AccuracyJob, keep};
 pub use text::{csv, text};
+
+/// `accuracy.html`, `accuracy.csv`, and the plots as SVG.
+pub const PAGES: Pages = Pages { json: "accuracy.json", make };
+
+fn make(kept: &KeptResults) -> Result<Vec<Page>> {
+    let expected = DocumentFormat {
+        what: "a result of accuracy",
+        version: FORMAT,
+        remedies: ["give one that `accuracy` wrote", "read it with the program that wrote it, or measure again"],
+    };
+    let found: Accuracy = provenance::read(&kept.name, &kept.text, &expected)?;
+    let mut pages = vec![Page::new("accuracy.html", page(&found, kept.pictures)?)];
+    pages.push(Page::new("accuracy.csv", csv(&found)?));
+    for (name, plots) in [("error-time", time_svgs(&found)?), ("error-step", step_svgs(&found)?)] {
+        for (i, svg) in plots.into_iter().enumerate() {
+            let more = if i == 0 { String::new() } else { format!("-{}", i + 1) };
+            pages.push(Page::new(format!("{name}{more}.svg"), svg));
+        }
+    }
+    Ok(pages)
+}

@@ -26,6 +26,9 @@ pub struct Accuracy {
     pub remarks: Vec<String>,
     /// Of the scene, as a scene file has them; each curve says what it changes.
     pub settings: Settings,
+    /// The exact integral as a PNG file, seen from this one.
+    #[serde(default)]
+    pub picture: Option<String>,
 }
 
 /// A method with one way of sampling, by its steps.

@@ -3,12 +3,19 @@
 use std::fmt::Write;
 
 use super::{Accuracy, Curve, Point, answers};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::report::number::{error, milliseconds, thousands};
+use crate::report::table::{Column, Table, TextLayout};
 
-pub(super) const HEAD: [&str; 7] = ["step", "largest error", "rmse", "PSNR / dB", "SSIM", "time / ms", "samples"];
+/// The pictures of a curve, a row each.
+pub(super) fn table(curve: &Curve) -> Table {
+    let heads = ["step", "largest error", "rmse", "PSNR / dB", "SSIM", "time / ms", "samples"];
+    let mut table = Table::new(heads.map(Column::numbers).to_vec());
+    curve.points.iter().for_each(|point| table.row(cells(point)));
+    table
+}
 
-pub(super) fn cells(point: &Point) -> [String; 7] {
+fn cells(point: &Point) -> [String; 7] {
     let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
     let front = if point.pareto { " *" } else { "" };
     [
@@ -46,13 +53,7 @@ pub fn text(found: &Accuracy) -> String {
     // Writing to a string cannot fail.
     for curve in &found.curves {
         let _ = writeln!(out, "\n{}: {}", curve.name(), order(curve));
-        let rows: Vec<[String; 7]> =
-            std::iter::once(HEAD.map(str::to_owned)).chain(curve.points.iter().map(cells)).collect();
-        let widths: [usize; 7] = std::array::from_fn(|c| rows.iter().map(|r| r[c].chars().count()).max().unwrap_or(0));
-        for row in &rows {
-            let line: Vec<String> = row.iter().zip(widths).map(|(cell, w)| format!("{cell:>w$}")).collect();
-            let _ = writeln!(out, "  {}", line.join("  "));
-        }
+        out += &table(curve).text(&TextLayout { indent: 2, ..TextLayout::default() });
         curve.remarks.iter().for_each(|remark| {
             let _ = writeln!(out, "  - {remark}");
         });
@@ -69,15 +70,13 @@ pub fn text(found: &Accuracy) -> String {
 /// # Errors
 /// When a row cannot be written, which only a fault of this program explains.
 pub fn csv(found: &Accuracy) -> Result<String> {
-    let failed = |e: csv::Error| Error::output("CSV", format!("cannot be written ({e})"), "use the JSON file instead");
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let head = "method,variation,step,samples_per_pass,error_max,error_rmse,error_psnr,ssim,ms,ms_min,ms_max,ms_mad,ms_n,samples,pareto,order,expected_order";
-    writer.write_record(head.split(',')).map_err(failed)?;
+    let mut table = Table::new(head.split(',').map(Column::words).collect());
     let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for curve in &found.curves {
         for point in &curve.points {
             let ms = |i: usize| some(point.ms.map(|ms| ms[i]));
-            let row = [
+            table.row([
                 curve.method.clone(),
                 curve.variation.clone(),
                 point.step.to_string(),
@@ -95,10 +94,8 @@ pub fn csv(found: &Accuracy) -> Result<String> {
                 point.pareto.to_string(),
                 some(curve.order.map(|fit| fit.order)),
                 some(curve.expected),
-            ];
-            writer.write_record(&row).map_err(failed)?;
+            ]);
         }
     }
-    let bytes = writer.into_inner().map_err(|e| failed(e.into_error().into()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    table.csv()
 }

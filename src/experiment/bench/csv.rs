@@ -22,43 +22,38 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use crate::error::{Error, Result};
-use crate::measure::record::{Counts, Results, Run, Saved};
+use crate::measure::record::{CountsRecord, Results, Run, Saved};
 use crate::measure::timing::Timing;
+use crate::report::table::{Column, Table};
 
-/// Fields of a row by column name, in the order of the columns.
-type Row = Vec<(String, String)>;
+/// CsvFields of a row by column name, in the order of the columns.
+type CsvFields = Vec<(String, String)>;
 
 /// The whole file, heading first.
 ///
 /// # Errors
 /// When a row cannot be written, which only a fault of this program explains.
 pub fn csv(results: &Results) -> Result<String> {
-    let fixed: Vec<Row> = results.runs.iter().map(|run| fixed_fields(results, run)).collect();
-    let groups: Vec<Row> = results.runs.iter().map(group_fields).collect();
-    let settings: Vec<Row> = results.runs.iter().map(settings_fields).collect::<Result<_>>()?;
+    let fixed: Vec<CsvFields> = results.runs.iter().map(|run| fixed_fields(results, run)).collect();
+    let groups: Vec<CsvFields> = results.runs.iter().map(group_fields).collect();
+    let settings: Vec<CsvFields> = results.runs.iter().map(settings_fields).collect::<Result<_>>()?;
 
     let group_columns = in_order_of_appearance(&groups);
     let settings_columns: BTreeSet<&str> = settings.iter().flatten().map(|(name, _)| name.as_str()).collect();
-    let failed = |e: csv::Error| Error::output("CSV", format!("cannot be written ({e})"), "use the JSON file instead");
-
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let Some(first) = fixed.first() else {
         return Ok(String::new());
     };
     let heading = first.iter().map(|(name, _)| name.as_str()).chain(group_columns.iter().copied());
-    writer.write_record(heading.chain(settings_columns.iter().copied())).map_err(failed)?;
+    let mut table = Table::new(heading.chain(settings_columns.iter().copied()).map(Column::words).collect());
     for ((fixed, groups), settings) in fixed.iter().zip(&groups).zip(&settings) {
         let row = fixed.iter().map(|(_, value)| value.as_str());
         let row = row.chain(group_columns.iter().map(|column| field(groups, column)));
-        writer
-            .write_record(row.chain(settings_columns.iter().map(|column| field(settings, column))))
-            .map_err(failed)?;
+        table.row(row.chain(settings_columns.iter().map(|column| field(settings, column))));
     }
-    let bytes = writer.into_inner().map_err(|e| failed(e.into_error().into()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    table.csv()
 }
 
-fn in_order_of_appearance(rows: &[Row]) -> Vec<&str> {
+fn in_order_of_appearance(rows: &[CsvFields]) -> Vec<&str> {
     let mut columns: Vec<&str> = Vec::new();
     for (name, _) in rows.iter().flatten() {
         if !columns.contains(&name.as_str()) {
@@ -68,12 +63,12 @@ fn in_order_of_appearance(rows: &[Row]) -> Vec<&str> {
     columns
 }
 
-fn field<'a>(row: &'a Row, column: &str) -> &'a str {
+fn field<'a>(row: &'a CsvFields, column: &str) -> &'a str {
     row.iter().find(|(name, _)| name == column).map_or("", |(_, value)| value)
 }
 
-fn fixed_fields(results: &Results, run: &Run) -> Row {
-    let mut row = Row::new();
+fn fixed_fields(results: &Results, run: &Run) -> CsvFields {
+    let mut row = CsvFields::new();
     let mut put = |name: &str, value: String| row.push((name.to_string(), value));
     put("scene", run.scene.clone());
     put("view", run.view.clone());
@@ -119,7 +114,8 @@ fn fixed_fields(results: &Results, run: &Run) -> Row {
     put("date", results.provenance.date.clone());
     put("version", run.version.to_string());
 
-    let per_pass = |counts: Option<&Counts>, of: fn(&Counts) -> &Vec<u64>| or_empty(counts.map(|c| join(of(c), " ")));
+    let per_pass =
+        |counts: Option<&CountsRecord>, of: fn(&CountsRecord) -> &Vec<u64>| or_empty(counts.map(|c| join(of(c), " ")));
     let (fragments, invocations) = (Some(&run.fragments), run.invocations.as_ref());
     let pass_times = run.gpu_ms_per_pass.as_ref();
     put("fragments_main_per_pass", per_pass(fragments, |c| &c.main_per_pass));
@@ -141,12 +137,12 @@ fn fixed_fields(results: &Results, run: &Run) -> Row {
     row
 }
 
-fn group_fields(run: &Run) -> Row {
+fn group_fields(run: &Run) -> CsvFields {
     let groups = run.gpu_ms.iter().flat_map(|times| times.groups());
     groups.flat_map(|(name, timing)| time_fields(&format!("gpu_{name}"), Some(timing))).collect()
 }
 
-fn time_fields(name: &str, timing: Option<&Timing>) -> Row {
+fn time_fields(name: &str, timing: Option<&Timing>) -> CsvFields {
     let stats = timing.and_then(|t| t.stats);
     vec![
         (format!("{name}_ms"), or_empty(timing.map(|t| t.value))),
@@ -157,16 +153,16 @@ fn time_fields(name: &str, timing: Option<&Timing>) -> Row {
     ]
 }
 
-fn settings_fields(run: &Run) -> Result<Row> {
+fn settings_fields(run: &Run) -> Result<CsvFields> {
     let value = serde_json::to_value(&run.settings).map_err(|e| {
         Error::output("settings", format!("cannot be written ({e})"), "check paths for names that are not UTF-8")
     })?;
-    let mut row = Row::new();
+    let mut row = CsvFields::new();
     flatten("settings", &value, &mut row);
     Ok(row)
 }
 
-fn flatten(name: &str, value: &serde_json::Value, row: &mut Row) {
+fn flatten(name: &str, value: &serde_json::Value, row: &mut CsvFields) {
     match value {
         serde_json::Value::Object(map) => {
             for (key, value) in map {

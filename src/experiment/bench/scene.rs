@@ -2,26 +2,32 @@
 
 use std::collections::BTreeSet;
 
-use super::page::ReportInput;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::experiment::orbit::Summary;
-use crate::measure::record::{OrbitFrame, Run};
-use crate::report::comparison::{Grid, RunGroup, label};
+use crate::measure::record::{OrbitFrame, PictureRecord, Run};
+use crate::report::comparison::{self, RunGroup, label};
 use crate::report::cost::Sweep;
-use crate::report::html::{Html, escape};
-use crate::report::number::bytes;
+use crate::report::html::{Html, Pictures, escape};
+use crate::report::number::{bytes, milliseconds, thousands};
 use crate::report::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
+use crate::report::table::{Column, Table};
 use crate::scene::texture::Within;
 
 /// # Errors
-/// When a picture or a plot cannot be made.
-pub fn section(page: &mut Html, group: &RunGroup, sweep: Option<&Sweep>, input: &ReportInput) -> Result<()> {
+/// When a plot cannot be drawn.
+pub fn section(
+    page: &mut Html,
+    group: &RunGroup,
+    sweep: Option<&Sweep>,
+    records: &[PictureRecord],
+    kept: Pictures,
+) -> Result<()> {
     page.raw("<section>\n");
     page.tag("h2", &group.first().scene);
     page.raw(&format!("<p class=\"sub\">{}</p>\n", escape(&group.subtitle())));
     warnings(page, group);
-    pictures(page, group, input)?;
-    page.grid(&Grid::of(group));
+    pictures(page, group, records, kept);
+    page.table(&comparison::table(group));
     if let Some(svg) = fragments_svg(group)? {
         page.plot(
             &svg,
@@ -46,8 +52,7 @@ pub fn section(page: &mut Html, group: &RunGroup, sweep: Option<&Sweep>, input: 
             "Time of a frame in times of rc-ert, where each sample takes so many extra fetches, one after another, which \
              change no picture. Below 1 skipping pays.",
         );
-        let head = sweep.head();
-        page.table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &sweep.table());
+        page.table(&sweep.table());
     }
     if let Some(svg) = orbit_svg(group)? {
         page.plot(
@@ -81,45 +86,50 @@ fn orbits(page: &mut Html, group: &RunGroup) {
         let Some(frames) = run.orbit.as_deref() else { continue };
         let Some(summary) = Summary::of(frames) else { continue };
         page.tag("p", &format!("{}: {}.", name(run), summary.words()));
-        let line = |frame: &OrbitFrame| {
-            let structure = frame.structure.as_deref().unwrap_or("-");
-            let age = frame.age.map_or_else(|| "-".to_owned(), |age| age.to_string());
-            format!(
-                "{:>5} {:>8.2} {structure:<12} {age:>4} {:>12} {:>12} {:>10.2} {:>10.2} {:>10.2}",
-                frame.frame, frame.turned, frame.main, frame.intermediate, frame.frame_ms, frame.cpu_ms, frame.build_ms
-            )
-        };
-        let head = format!(
-            "{:>5} {:>8} {:<12} {:>4} {:>12} {:>12} {:>10} {:>10} {:>10}",
-            "frame", "degrees", "structure", "age", "main", "intermediate", "frame ms", "CPU ms", "builds ms"
-        );
-        let lines: Vec<String> = std::iter::once(head).chain(frames.iter().map(line)).collect();
-        page.folded(&format!("{}: frames of the orbit", name(run)), |page| page.tag("pre", &lines.join("\n")));
+        page.folded(&format!("{}: frames of the orbit", name(run)), |page| page.table(&frame_table(frames)));
     }
+}
+
+fn frame_table(frames: &[OrbitFrame]) -> Table {
+    let (words, numbers) = (Column::words, Column::numbers);
+    let mut columns = vec![numbers("frame"), numbers("degrees"), words("structure")];
+    columns.extend(["age", "main", "intermediate", "frame ms", "CPU ms", "builds ms"].map(numbers));
+    let mut table = Table::new(columns);
+    for frame in frames {
+        table.row([
+            frame.frame.to_string(),
+            format!("{:.2}", frame.turned),
+            frame.structure.clone().unwrap_or("-".to_owned()),
+            frame.age.map_or("-".to_owned(), |age| age.to_string()),
+            thousands(frame.main),
+            thousands(frame.intermediate),
+            milliseconds(frame.frame_ms),
+            milliseconds(frame.cpu_ms),
+            milliseconds(frame.build_ms),
+        ]);
+    }
+    table
 }
 
 fn name(run: &Run) -> String {
     run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
 }
 
-fn pictures(page: &mut Html, group: &RunGroup, input: &ReportInput) -> Result<()> {
+fn pictures(page: &mut Html, group: &RunGroup, records: &[PictureRecord], kept: Pictures) {
     page.raw("<div class=\"pictures\">\n");
     for (i, run) in &group.runs {
-        let Some((_, picture)) = input.pictures.iter().find(|(at, _)| at == i) else { continue };
+        let Some(record) = records.iter().find(|record| record.run == *i) else { continue };
         page.raw("<figure>");
-        let in_picture = |e: Error| Error { input: format!("picture of {}, {}", run.scene, name(run)), ..e };
-        page.picture(picture, run.settings.image.background, &format!("{} by {}", run.scene, name(run)))
-            .map_err(in_picture)?;
+        page.picture(kept, &record.file, &format!("{} by {}", run.scene, name(run)));
         page.raw(&format!("<figcaption>{}", escape(&name(run))));
-        if let Some(difference) = input.differences.iter().find(|d| d.run == *i) {
+        if let Some(difference) = &record.difference {
             page.raw("<br>");
-            page.picture(&difference.picture, [0.0; 3], "difference to the reference").map_err(in_picture)?;
+            page.picture(kept, &difference.file, "difference to the reference");
             page.raw(&format!("<br>difference to the reference &#215;&#8201;{}", difference.gain));
         }
         page.raw("</figcaption></figure>\n");
     }
     page.raw("</div>\n");
-    Ok(())
 }
 
 fn detail(page: &mut Html, run: &Run) {

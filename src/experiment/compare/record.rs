@@ -1,11 +1,11 @@
-//! Two results side by side: other devices, drivers or commits. Counts are compared exactly, times with their spread.
+//! Two results side by side: other devices, drivers or commits. CountsRecord are compared exactly, times with their spread.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::measure::record::{Counts, OrbitFrame, Results, Run};
+use crate::measure::record::{CountsRecord, OrbitFrame, Results, Run};
 use crate::measure::timing::Timing;
 
 /// The version of the JSON that `compare --json` writes.
@@ -30,7 +30,7 @@ pub struct RunComparison {
     pub run: String,
     /// Settings whose values differ; files count by their names, since folders differ between machines.
     pub settings: Vec<Difference>,
-    /// Counts that differ, and how many main passes there are.
+    /// CountsRecord that differ, and how many main passes there are.
     pub counts: Vec<Difference>,
     pub times: Vec<TimeDifference>,
 }
@@ -120,7 +120,7 @@ fn compare_run(name: String, a: &Run, b: &Run) -> RunComparison {
 }
 
 /// A count by its name.
-type Count = (&'static str, fn(&Counts) -> Vec<u64>);
+type Count = (&'static str, fn(&CountsRecord) -> Vec<u64>);
 
 const COUNTS: [Count; 2] = [
     ("main fragments, pass by pass", |counts| counts.main_per_pass.clone()),

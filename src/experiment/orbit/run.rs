@@ -4,8 +4,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use crate::error::Result;
 use crate::frame::{Background, GpuFrame, Measure, Structures};
+use crate::measure::Measured;
 use crate::measure::record::OrbitFrame;
-use crate::measure::runner::{Measured, Runner, builds_on_host, no_device};
+use crate::measure::runner::{Runner, builds_on_host, no_device};
 use crate::plan;
 use crate::scene::settings::MethodSettings;
 use crate::scene::{Camera, Scene};

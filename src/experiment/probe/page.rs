@@ -1,81 +1,80 @@
 //! The section of the report: the verdicts as a map of colours, the table, and every fault.
 
-use super::text::{HEAD, facts, fault_lines, row, summary};
+use super::text::{facts, fault_lines, summary, table};
 use crate::probe::record::{Line, Probe};
 use crate::probe::{Mechanism, Pattern, Shader};
-use crate::report::html::{Html, escape};
+use crate::report::html::{Html, Intro};
+use crate::report::table::{Cell, Column, Table};
 
 /// A report of a probe alone.
 pub fn page(probe: &Probe) -> String {
-    let mut page = Html::page("Depthleap probe: what this driver culls before shading");
-    section(&mut page, probe);
+    let mut page = Html::page("Depthleap probe: what this driver culls before shading", &intro(probe));
+    body(&mut page, probe);
     page.closed()
 }
 
-/// The section, in a page.
+/// A section with all of it, in another page.
 pub fn section(page: &mut Html, probe: &Probe) {
     page.raw("<section>\n");
     page.tag("h2", &format!("What {} culls before shading", probe.device.name));
-    page.raw("<div class=\"lead\">\n");
-    summary(probe).iter().for_each(|sentence| page.tag("p", sentence));
-    page.raw("</div>\n<dl class=\"facts\">\n");
-    page.fact("Device", &probe.device.name);
-    page.fact("Driver", &format!("{}, {}", probe.device.driver, probe.device.driver_version));
-    for (term, words) in facts(probe) {
-        page.fact(term, &words);
-    }
-    page.provenance(&probe.provenance);
-    page.raw("</dl>\n");
+    page.intro(&intro(probe));
+    body(page, probe);
+    page.raw("</section>\n");
+}
+
+fn intro(probe: &Probe) -> Intro<'_> {
+    let device = &probe.device;
+    let intro = Intro::new(summary(probe), &probe.provenance)
+        .fact("Device", &device.name)
+        .fact("Driver", &format!("{}, {}", device.driver, device.driver_version));
+    facts(probe).iter().fold(intro, |intro, (term, words)| intro.fact(term, words))
+}
+
+fn body(page: &mut Html, probe: &Probe) {
     map(page, probe);
     patterns(page, probe);
     for mechanism in Mechanism::ALL {
         page.folded(mechanism.words(), |page| {
             let lines = probe.lines.iter().filter(|line| line.case.mechanism == mechanism);
-            page.table(&HEAD, &lines.map(|line| row(line).to_vec()).collect::<Vec<_>>());
+            page.table(&table(lines));
         });
     }
     let faults = fault_lines(probe);
     if !faults.is_empty() {
         page.tag("h3", "wrong, the first case of each kind");
-        page.raw("<ul>\n");
-        faults.iter().for_each(|fault| page.tag("li", fault));
-        page.raw("</ul>\n");
+        page.list(&faults);
     }
-    page.raw("</section>\n");
 }
 
-/// Work that is left where all is rejected, from none (0) to all (1).
+/// The ground of a cell by the work that is left where all is rejected, from none (0) to all (1).
 fn color(share: f64) -> String {
     // From green over yellow to red; text on it stays black.
     let hue = 130.0 * (1.0 - share.clamp(0.0, 1.0));
-    format!("background:hsl({hue:.0} 60% 72%);color:#000")
+    format!("{hue:.0} 60% 72%")
 }
 
-fn cell(text: &str, share: Option<f64>, title: &str) -> String {
-    let style = share.map(color).unwrap_or_default();
-    format!("<td class=\"number\" style=\"{style}\" title=\"{}\">{}</td>", escape(title), escape(text))
+fn cell(text: &str, share: Option<f64>, title: &str) -> Cell {
+    Cell { ground: share.map(color), title: Some(title.to_owned()), ..text.into() }
 }
 
 /// Mechanisms by shaders.
 fn map(page: &mut Html, probe: &Probe) {
     page.tag("h3", "work of the shader that is left when all fragments are rejected");
     page.raw("<p class=\"sub\">Green: culled before the shader. Red: the shader runs. A cross: what is left behind is wrong.</p>\n");
-    page.raw("<div class=\"wide\"><table><thead><tr><th>shader</th>");
-    Mechanism::ALL.iter().for_each(|mechanism| page.raw(&format!("<th>{}</th>", escape(mechanism.words()))));
-    page.raw("</tr></thead>\n<tbody>\n");
+    let mechanisms = Mechanism::ALL.iter().map(|mechanism| Column::numbers(mechanism.words()));
+    let mut table = Table::new([Column::words("shader")].into_iter().chain(mechanisms).collect());
     for shader in Shader::ALL {
-        page.raw(&format!("<tr><td>{}</td>", escape(shader.words())));
-        for mechanism in Mechanism::ALL {
+        let cells = Mechanism::ALL.map(|mechanism| {
             // Of two compares the one a qualifier was made for comes first.
             let line = probe.lines.iter().find(|l| l.case.mechanism == mechanism && l.case.shader == shader);
-            page.raw(&line.map_or_else(|| cell("", None, "makes no sense"), map_cell));
-        }
-        page.raw("</tr>\n");
+            line.map_or_else(|| cell("", None, "makes no sense"), map_cell)
+        });
+        table.row([Cell::from(shader.words())].into_iter().chain(cells));
     }
-    page.raw("</tbody></table></div>\n");
+    page.table(&table);
 }
 
-fn map_cell(line: &Line) -> String {
+fn map_cell(line: &Line) -> Cell {
     if let Some(missing) = &line.missing {
         return cell("–", None, missing);
     }
@@ -99,16 +98,17 @@ fn patterns(page: &mut Html, probe: &Probe) {
     }
     page.tag("h3", "what is saved of the rejected half, by its pattern");
     page.raw("<p class=\"sub\">100 %: rejected fragments cost nothing. Squares of so many pixels, and so many per cent anywhere.</p>\n");
-    page.raw("<div class=\"wide\"><table><thead><tr><th>case</th>");
-    Pattern::MIXED.iter().for_each(|pattern| page.raw(&format!("<th>{}</th>", escape(&pattern.name()))));
-    page.raw("</tr></thead>\n<tbody>\n");
+    let patterns = Pattern::MIXED.iter().map(|pattern| Column::numbers(pattern.name()));
+    let mut table = Table::new([Column::words("case")].into_iter().chain(patterns).collect());
     for (line, mixed) in lines {
-        page.raw(&format!("<tr><td>{}</td>", escape(&line.case.name())));
-        for one in mixed {
+        let cells = mixed.iter().map(|one| {
             let text = one.saved.map_or("?".to_owned(), |saved| format!("{:.0} %", 100.0 * saved));
-            page.raw(&cell(&text, one.saved.map(|saved| 1.0 - saved), &one.pattern));
-        }
-        page.raw("</tr>\n");
+            cell(&text, one.saved.map(|saved| 1.0 - saved), &one.pattern)
+        });
+        // A probe cut short has fewer patterns.
+        let blank = std::iter::repeat_with(Cell::default);
+        let cells = [Cell::from(line.case.name())].into_iter().chain(cells).chain(blank);
+        table.row(cells.take(1 + Pattern::MIXED.len()));
     }
-    page.raw("</tbody></table></div>\n");
+    page.table(&table);
 }

@@ -6,10 +6,15 @@ use crate::measure::statistics::Statistics;
 use crate::probe::record::{Line, Probe};
 use crate::probe::{Culling, Fault, Mechanism};
 use crate::report::number::thousands;
+use crate::report::table::{Column, Table, TextLayout};
 
-/// Columns of the table.
-pub(super) const HEAD: [&str; 6] =
-    ["shader", "right", "culled", "by the specification", "work left", "rejected in 1 s"];
+/// Lines of a probe as rows of a table.
+pub(super) fn table<'a>(lines: impl Iterator<Item = &'a Line>) -> Table {
+    let heads = ["shader", "right", "culled", "by the specification", "work left", "rejected in 1 s"];
+    let mut table = Table::new(heads.map(Column::words).to_vec());
+    lines.for_each(|line| table.row(row(line)));
+    table
+}
 
 /// Everything, for a terminal.
 pub fn text(probe: &Probe) -> String {
@@ -19,28 +24,17 @@ pub fn text(probe: &Probe) -> String {
     for line in facts(probe) {
         let _ = writeln!(out, "  {}: {}", line.0, line.1);
     }
-    let rows: Vec<[String; 6]> = probe.lines.iter().map(row).collect();
-    let widths: [usize; 6] = std::array::from_fn(|i| {
-        let cells = rows.iter().map(|row| row[i].chars().count());
-        cells.chain([HEAD[i].chars().count()]).max().unwrap_or(0)
-    });
+    let layout = TextLayout { indent: 2, least: table(probe.lines.iter()).widths(), ..TextLayout::default() };
     for mechanism in Mechanism::ALL {
         let _ = writeln!(out, "\n{}", mechanism.words());
-        let mut put = |cells: [&str; 6]| {
-            let padded: Vec<String> = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
-            let _ = writeln!(out, "  {}", padded.join("  ").trim_end());
-        };
         let lines = || probe.lines.iter().filter(|line| line.case.mechanism == mechanism);
         if let Some(why) = lines().next().and_then(|line| line.missing.as_ref())
             && lines().all(|line| line.missing.is_some())
         {
-            put([&format!("not available: {why}"), "", "", "", "", ""]);
+            let _ = writeln!(out, "  not available: {why}");
             continue;
         }
-        put(HEAD);
-        for (_, row) in probe.lines.iter().zip(&rows).filter(|(line, _)| line.case.mechanism == mechanism) {
-            put(std::array::from_fn(|i| row[i].as_str()));
-        }
+        out += &table(lines()).text(&layout);
     }
     let faults = fault_lines(probe);
     if !faults.is_empty() {
@@ -70,7 +64,7 @@ pub(super) fn facts(probe: &Probe) -> Vec<(&'static str, String)> {
     ]
 }
 
-pub(super) fn row(line: &Line) -> [String; 6] {
+fn row(line: &Line) -> [String; 6] {
     let share = line.cost.as_ref().and_then(|cost| cost.verdict.share);
     [
         line.case.shader_words(),

@@ -4,15 +4,16 @@
 //! | --- | --- | --- |
 //! | `version` | integer | version of this format, [`FORMAT`] |
 //! | `program`, `commit`, `command`, `date` | text | as in `results.json` |
-//! | `columns` | array of {`name`, `source`, `file`, `absent`, `variants`} | the tables' columns |
+//! | `columns` | array of {`name`, `source`, `file`, `absent`, `picture`, `variants`} | the tables' columns |
 //! | `columns[].absent` | text or null | why nothing was counted for it |
+//! | `columns[].picture` | text or null | a PNG file beside this one, of the main configuration |
 //! | `columns[].variants` | array of {`choice`, `value`, `runs`} | the first is the main configuration, each other changes one choice of it; `runs` as in `results.json` |
 //!
 //! The papers' own numbers are data of the program ([`papers`](super::papers)) and stand in `reproduce.csv` beside ours.
 
 use serde::{Deserialize, Serialize};
 
-use crate::measure::{Picture, Run};
+use crate::measure::Run;
 use crate::provenance::Provenance;
 
 /// The version of the format written here.
@@ -35,6 +36,9 @@ pub struct ReproducedSet {
     pub file: Option<String>,
     /// Why nothing was counted.
     pub absent: Option<String>,
+    /// A PNG file of the main configuration, seen from the folder of the results.
+    #[serde(default)]
+    pub picture: Option<String>,
     pub variants: Vec<Variant>,
 }
 
@@ -45,11 +49,4 @@ pub struct Variant {
     pub choice: String,
     pub value: String,
     pub runs: Vec<Run>,
-}
-
-/// A picture of a column, of the main configuration.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    pub column: usize,
-    pub picture: Picture,
 }

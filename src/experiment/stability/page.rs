@@ -1,19 +1,16 @@
 //! `stability.html`: every case by every method.
 
 use super::text::{faults, share, word};
-use super::{Outcome, Stability, StabilityVerdict};
-use crate::report::html::{Html, escape};
+use super::{CaseRecord, Outcome, Stability, StabilityVerdict};
+use crate::report::html::{Html, Intro};
 use crate::report::number::error;
+use crate::report::table::{Cell, Column, Table};
 
 /// The whole file.
 pub fn page(found: &Stability) -> String {
-    let mut page = Html::page(&format!("Stiff and extreme cases on {}", found.device));
-    page.raw("<div class=\"lead\">\n");
-    page.tag("p", &format!("{}.", found.summary()));
-    page.raw("</div>\n<dl class=\"facts\">\n");
-    page.fact("Device", &format!("{}, {}", found.device, found.driver));
-    page.provenance(&found.provenance);
-    page.raw("</dl>\n");
+    let intro = Intro::new(vec![format!("{}.", found.summary())], &found.provenance)
+        .fact("Device", &format!("{}, {}", found.device, found.driver));
+    let mut page = Html::page(&format!("Stiff and extreme cases on {}", found.device), &intro);
     page.tag(
         "p",
         "Each cell is the largest difference of a channel from what is expected, as a share of what is allowed; pixels that \
@@ -32,46 +29,38 @@ pub fn page(found: &Stability) -> String {
     for group in groups {
         page.raw("<section>\n");
         page.tag("h2", group);
-        page.raw("<div class=\"wide\"><table>\n<thead><tr><th>case</th><th>held against</th><th>allowed, and why</th>");
-        methods.iter().for_each(|method| page.raw(&format!("<th class=\"number\">{}</th>", escape(method))));
-        page.raw("</tr></thead>\n<tbody>\n");
-        for case in found.cases.iter().filter(|case| case.group == group) {
-            let [absolute, relative] = case.tolerance.map(|t| error(Some(t)));
-            let allowed = match case.outcomes.iter().any(|o| o.share.is_some()) {
-                true => format!("{absolute} and {relative} of the value: {}", case.reason),
-                false => String::new(),
-            };
-            page.raw(&format!(
-                "<tr><td>{}</td><td>{}</td><td>{}</td>",
-                escape(&case.name),
-                escape(&case.expected),
-                escape(&allowed)
-            ));
-            for method in &methods {
-                let outcome = case.outcomes.iter().find(|o| o.method == *method);
-                page.raw(&outcome.map_or("<td></td>".to_owned(), cell));
-            }
-            page.raw("</tr>\n");
-        }
-        page.raw("</tbody></table></div>\n");
-        let wrong: Vec<String> = found
-            .cases
-            .iter()
-            .filter(|case| case.group == group)
+        let of_group = || found.cases.iter().filter(|case| case.group == group);
+        page.table(&table(of_group(), &methods));
+        let wrong: Vec<String> = of_group()
             .flat_map(|case| faults(case).into_iter().map(move |fault| format!("{}, {fault}", case.name)))
             .collect();
-        if !wrong.is_empty() {
-            page.raw("<ul>\n");
-            wrong.iter().for_each(|fault| page.tag("li", fault));
-            page.raw("</ul>\n");
-        }
+        page.list(&wrong);
         page.raw("</section>\n");
     }
     page.closed()
 }
 
-fn cell(outcome: &Outcome) -> String {
-    let hue = match outcome.verdict {
+/// Cases by methods.
+fn table<'a>(cases: impl Iterator<Item = &'a CaseRecord>, methods: &[&str]) -> Table {
+    let mut columns = ["case", "held against", "allowed, and why"].map(Column::words).to_vec();
+    columns.extend(methods.iter().map(|method| Column::numbers(*method)));
+    let mut table = Table::new(columns);
+    for case in cases {
+        let [absolute, relative] = case.tolerance.map(|t| error(Some(t)));
+        let allowed = match case.outcomes.iter().any(|o| o.share.is_some()) {
+            true => format!("{absolute} and {relative} of the value: {}", case.reason),
+            false => String::new(),
+        };
+        let outcome = |method: &&str| case.outcomes.iter().find(|o| o.method == *method);
+        let words = [case.name.clone(), case.expected.clone(), allowed].map(Cell::from);
+        let cells = methods.iter().map(|method| outcome(method).map_or_else(Cell::default, cell));
+        table.row(words.into_iter().chain(cells));
+    }
+    table
+}
+
+fn cell(outcome: &Outcome) -> Cell {
+    let ground = match outcome.verdict {
         StabilityVerdict::Right => "130 45% 80%",
         StabilityVerdict::Wrong => "0 70% 75%",
         StabilityVerdict::Missing => "0 0% 88%",
@@ -81,9 +70,5 @@ fn cell(outcome: &Outcome) -> String {
         (verdict, _) => word(verdict).to_owned(),
     };
     let title = outcome.remark.clone().unwrap_or_else(|| share(outcome.share));
-    format!(
-        "<td class=\"number\" style=\"background:hsl({hue});color:#000\" title=\"{}\">{}</td>",
-        escape(&title),
-        escape(&text)
-    )
+    Cell { ground: Some(ground.to_owned()), title: Some(title), ..text.into() }
 }

@@ -83,6 +83,27 @@ fn mark<'a>(area: &Area<'a>, at: (i32, i32), i: usize, radius: i32) -> Drawn<'a>
     }
 }
 
+/// How many curves of one panel have a colour and a mark of their own.
+pub const DISTINCT: usize = PALETTE.len();
+
+/// A mark at a place in pixels, another for each of [`DISTINCT`] curves.
+fn shape<'a>(area: &Area<'a>, (x, y): (i32, i32), i: usize) -> Drawn<'a> {
+    const R: i32 = 5;
+    let (filled, line) = (color(i).filled(), color(i).stroke_width(2));
+    let corners = |corners: &[(i32, i32)]| corners.iter().map(|(a, b)| (x + a, y + b)).collect::<Vec<_>>();
+    let square = corners(&[(-R + 1, -R + 1), (R - 1, -R + 1), (R - 1, R - 1), (-R + 1, R - 1), (-R + 1, -R + 1)]);
+    match i % DISTINCT {
+        0 => area.draw(&Circle::new((x, y), R - 1, filled)),
+        1 => area.draw(&Polygon::new(corners(&[(0, -R), (R, R - 1), (-R, R - 1)]), filled)),
+        2 => area.draw(&Polygon::new(square, filled)),
+        3 => area.draw(&Polygon::new(corners(&[(0, -R - 1), (R + 1, 0), (0, R + 1), (-R - 1, 0)]), filled)),
+        4 => area.draw(&Polygon::new(corners(&[(0, R), (R, -R + 1), (-R, -R + 1)]), filled)),
+        5 => area.draw(&Cross::new((x, y), R, line)),
+        6 => area.draw(&Circle::new((x, y), R, line)),
+        _ => area.draw(&PathElement::new(square, line)),
+    }
+}
+
 /// An axis with ticks at the given places. The first place may be the larger one: then it runs backwards.
 struct Ticks {
     range: Range<f64>,

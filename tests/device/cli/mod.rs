@@ -36,6 +36,7 @@ pub fn tests() -> Vec<Test> {
         test("cull bounds gives the picture of ztest", bounds_and_ztest_agree).needs(Need::DepthBounds),
         test("both early ends give one picture", early_ends_agree).needs(Need::Conditional),
         test("extra fetches change no picture and are swept", extra_fetches),
+        test("report makes all pages again", pages_come_again),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     tests.extend(accuracy::tests());
@@ -69,6 +70,46 @@ fn extra_fetches(_: &Arc<Device>) {
         place.refused(&format!("bench {SMALL} {wrong} -o other"), 2, &["--gpu-cost", "from 1 to 4096"]);
     }
     place.refused(&format!("render {SMALL} --extra-fetches 5000 -o a.png"), 2, &["extra_fetches", "0 to 4096"]);
+}
+
+fn pages_come_again(_: &Arc<Device>) {
+    let place = Place::new();
+    let small = "builtin:shells:16 --viewport 16x12";
+    place.done(&format!("bench {small} --method rc-ert,nn-omni --repeats 2 --orbit 3 --gpu-cost 2 -o out"));
+    place.done(&format!("accuracy {small} --method rc,nn-omni --steps 2,1,0.5 --repeats 2 -o out"));
+    place.done("stability --case values --method rc,nn-omni -o out");
+    place.done("probe --quick -o out");
+    // The bench's report takes in what the probe found, and from here on pages change no more.
+    let pages = || -> Vec<(String, Vec<u8>)> {
+        let names = std::fs::read_dir(place.path().join("out")).unwrap().map(|e| e.unwrap().file_name());
+        let mut names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
+        names.retain(|name| [".html", ".svg", ".csv"].iter().any(|end| name.ends_with(end)));
+        names.sort();
+        names.into_iter().map(|name| (name.clone(), place.read(&format!("out/{name}")))).collect()
+    };
+    let alone = pages();
+    place.done("report out");
+    let changed: Vec<String> =
+        pages().into_iter().zip(&alone).filter(|(a, b)| a != *b).map(|((name, _), _)| name).collect();
+    assert_eq!(changed, ["report.html"]);
+    let before = pages();
+    before.iter().for_each(|(name, _)| std::fs::remove_file(place.path().join("out").join(name)).unwrap());
+    let ended = place.done("report out");
+    assert_eq!(ended.err, "");
+    assert_eq!(
+        before.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(),
+        [
+            "accuracy.csv",
+            "accuracy.html",
+            "error-step.svg",
+            "error-time.svg",
+            "probe.html",
+            "report.html",
+            "results.csv",
+            "stability.html",
+        ]
+    );
+    assert!(pages() == before, "a page is not as it was");
 }
 
 fn volume_beyond_the_limit(device: &Arc<Device>) {
@@ -247,7 +288,7 @@ fn bench_writes_rows(_: &Arc<Device>) {
     let mut files: Vec<_> =
         std::fs::read_dir(place.path().join("a/b")).unwrap().map(|e| e.unwrap().file_name()).collect();
     files.sort();
-    assert_eq!(files, ["report.html", "results.csv", "results.json"], "a temporary file was left behind");
+    assert_eq!(files, ["pictures", "report.html", "results.csv", "results.json"], "a temporary file was left behind");
 }
 
 fn validation_finds_nothing(_: &Arc<Device>) {
