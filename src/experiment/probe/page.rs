@@ -8,7 +8,7 @@ use crate::report::table::{Cell, Column, Table};
 
 /// A report of a probe alone.
 pub fn page(probe: &Probe) -> String {
-    let mut page = Html::page("Depthleap probe: what this driver culls before shading", &intro(probe));
+    let mut page = Html::page(&title(probe), &intro(probe));
     body(&mut page, probe);
     page.closed()
 }
@@ -16,10 +16,14 @@ pub fn page(probe: &Probe) -> String {
 /// A section with all of it, in another page.
 pub fn section(page: &mut Html, probe: &Probe) {
     page.raw("<section>\n");
-    page.tag("h2", &format!("What {} culls before shading", probe.device.name));
+    page.tag("h2", &title(probe));
     page.intro(&intro(probe));
     body(page, probe);
     page.raw("</section>\n");
+}
+
+fn title(probe: &Probe) -> String {
+    format!("What {} culls before shading", probe.device.name)
 }
 
 fn intro(probe: &Probe) -> Intro<'_> {
