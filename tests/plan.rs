@@ -1,10 +1,11 @@
-//! Plans: what a scene needs and what is left out; needs no device. Their text stands in `tests/golden/plan_*.txt`.
+//! Plans: what a scene needs and what is left out; needs no device.
 
 #[path = "plan/cases.rs"]
 mod cases;
+#[path = "plan/golden.rs"]
+mod golden;
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 use cases::{cases, scene, settings};
 use depthleap::method;
@@ -15,62 +16,6 @@ use depthleap::plan::{Plan, form, plan};
 use depthleap::scene::Settings;
 use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, Offset};
 use glam::DVec3;
-
-const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --test plan";
-
-/// Whether `text` is what the file holds. An update writes it, and fails all the same: somebody has to look.
-fn held(file: &Path, text: &str, update: bool) -> Result<(), String> {
-    let shown = file.display();
-    if update {
-        std::fs::write(file, text).map_err(|error| format!("{shown}: {error}"))?;
-        return Err(format!("{shown} was written; look at its diff, then run the test without UPDATE_GOLDEN"));
-    }
-    let golden = std::fs::read_to_string(file).map_err(|error| format!("{shown}: {error}; `{UPDATE}` makes it"))?;
-    if golden == text {
-        return Ok(());
-    }
-    let lines = golden.lines().zip(text.lines()).position(|(a, b)| a != b);
-    let at = lines.unwrap_or_else(|| golden.lines().count().min(text.lines().count()));
-    let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_owned();
-    Err(format!(
-        "{shown}, line {}:\n  golden {}\n  actual {}\nif this is right, `{UPDATE}` makes it anew",
-        at + 1,
-        line(&golden),
-        line(text)
-    ))
-}
-
-fn golden(name: &str) -> PathBuf {
-    Path::new("tests/golden").join(format!("plan_{name}.txt"))
-}
-
-#[test]
-fn plans_are_those_of_their_goldens() {
-    let update = std::env::var_os("UPDATE_GOLDEN").is_some();
-    let text = |plan: &Plan| plan.lines().iter().map(|line| format!("{line}\n")).collect::<String>();
-    let failed: Vec<String> =
-        cases().iter().filter_map(|case| held(&golden(case.name), &text(&case.plan), update).err()).collect();
-    assert!(failed.is_empty(), "{}", failed.join("\n"));
-    let known: BTreeSet<PathBuf> = cases().iter().map(|case| golden(case.name)).collect();
-    let files = std::fs::read_dir("tests/golden").unwrap().map(|entry| entry.unwrap().path());
-    let plans = files.filter(|file| file.to_string_lossy().contains("plan_"));
-    assert_eq!(plans.collect::<BTreeSet<_>>(), known, "every golden of a plan is held by a case");
-}
-
-#[test]
-fn missing_or_different_golden_fails_and_names_the_command() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("plan.txt");
-    let missing = held(&file, "a\n", false).unwrap_err();
-    assert!(missing.contains("plan.txt") && missing.contains(UPDATE), "{missing}");
-    let written = held(&file, "a\nb\n", true).unwrap_err();
-    assert!(written.contains("look at its diff"), "{written}");
-    assert_eq!(held(&file, "a\nb\n", false), Ok(()));
-    for (other, line) in [("a\nc\n", "line 2"), ("a\n", "line 2"), ("a\nb\nc\n", "line 3"), ("", "line 1")] {
-        let different = held(&file, other, false).unwrap_err();
-        assert!(different.contains(line) && different.contains(UPDATE), "{different}");
-    }
-}
 
 /// Reads of what no step before has written and what is not there from the start.
 fn unwritten(steps: &[Step]) -> Vec<String> {
@@ -313,6 +258,23 @@ fn rays_left_are_counted_every_eight_passes() {
             planned(&settings).steps.iter().filter(|s| s.group == Group::Alive).map(|s| s.pass).collect();
         assert_eq!(counted, [8, 16, 24], "{}", method.name());
     }
+}
+
+/// Decisions follow a main pass in the papers' order, so that nothing is built for those that would follow the only one.
+#[test]
+fn blocks_are_built_where_some_pass_asks_for_them() {
+    let mut settings = settings(method::RC_BLOCK.name());
+    let asks = |settings: &Settings| {
+        let plan = planned(settings);
+        let uses = plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == Resource::CellRange));
+        assert_eq!(uses, plan.steps.iter().any(|step| step.group == Group::Intermediate));
+        uses
+    };
+    assert!(asks(&settings));
+    settings.sampling.samples_per_pass = 1024;
+    assert!(!asks(&settings));
+    settings.method.block_first = true;
+    assert!(asks(&settings));
 }
 
 #[test]

@@ -13,7 +13,7 @@ const ALL: [&Pages; 5] = [&bench::PAGES, &probe::PAGES, &reproduce::PAGES, &accu
 /// Makes all pages of `folder` again.
 ///
 /// # Errors
-/// When `folder` is none, or has no results; as [`write_pages`].
+/// When `folder` is not a folder, or has no results; else as [`write_pages`].
 pub fn render(folder: &Path) -> Result<Written> {
     let wrong = |problem: String| {
         Error::input(

@@ -1,7 +1,7 @@
 //! Ranges of the values in blocks, and the table that says which show [KW03 §2.3].
 
 use super::distances::DISTANCES;
-use super::reasons::DENSE;
+use super::reasons::{DENSE, ONLY_PASS};
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Feature, Hook, Why};
 use crate::structure::cells::all_interesting;
@@ -15,6 +15,8 @@ pub const BLOCK_RANGES: Feature = Feature {
 fn needed(context: &Context) -> Result<(), Why> {
     match context.method.ahead {
         Ahead::Blocks if context.plans() && all_interesting(context.scene) => Err(DENSE.into()),
+        // Nobody would read them before a main pass that always runs.
+        Ahead::Blocks if context.passes == 1 && !context.scene.settings.method.block_first => Err(ONLY_PASS.into()),
         Ahead::Blocks => Ok(()),
         // Distances of larger cells are built from the ranges of these.
         Ahead::Distances(_) if context.has(&DISTANCES) && context.lookup().is_some_and(|l| l.reads_ranges()) => {

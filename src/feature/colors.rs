@@ -1,5 +1,6 @@
 //! Colours of the transfer function.
 
+use super::preintegration::PREINTEGRATION;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::scene::TransferFunction;
 
@@ -10,12 +11,11 @@ pub const COLORS: Feature = Feature {
 };
 
 fn needed(context: &Context) -> Result<(), Why> {
-    match () {
-        () if !context.plans() || !is_grey(&context.scene.transfer) => Ok(()),
-        // The table holds all four.
-        () if context.scene.settings.sampling.spans() => Err(Why::Untold),
-        () => Err("red, green and blue are alike everywhere".into()),
+    if !context.plans() || !is_grey(&context.scene.transfer) {
+        return Ok(());
     }
+    // A pre-integrated table has all four channels.
+    if context.has(&PREINTEGRATION) { Err(Why::Untold) } else { Err("red, green and blue are alike everywhere".into()) }
 }
 
 /// Whether red, green and blue are alike everywhere.

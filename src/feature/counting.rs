@@ -10,10 +10,14 @@ pub const BATCH: u32 = 8;
 pub const COUNTING: Feature = Feature::of_frame("counting of rays", needed);
 
 fn needed(context: &Context) -> Result<(), Why> {
-    match () {
-        () if context.form.is_none() => Err(Why::Untold),
-        () if !context.has(&DECISIONS) => Err("no ray is marked".into()),
-        () if context.passes <= BATCH => Err(format!("there are no more than {BATCH} main passes").into()),
-        () => Ok(()),
+    if context.form.is_none() {
+        return Err(Why::Untold);
     }
+    if !context.has(&DECISIONS) {
+        return Err("no ray is marked".into());
+    }
+    if context.passes <= BATCH {
+        return Err(format!("there are no more than {BATCH} main passes").into());
+    }
+    Ok(())
 }

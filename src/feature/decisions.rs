@@ -3,7 +3,7 @@
 use super::block_ranges::BLOCK_RANGES;
 use super::distances::DISTANCES;
 use super::early_ends::EARLY_ENDS;
-use super::reasons::{DENSE, never_ends};
+use super::reasons::{DENSE, ONLY_PASS, never_ends};
 use crate::part::rows::{Context, Feature, Why};
 use crate::scene::settings::Mark;
 
@@ -30,10 +30,10 @@ fn decisions(context: &Context) -> Result<(), Why> {
         let never_ends = never_ends(context);
         return Err(if method.looks_ahead() { format!("{never_ends}, and {DENSE}") } else { never_ends }.into());
     }
-    // Methods that switch rays on and off decide after a main pass [KW03 §2.1], unless blocks are looked at first.
-    let first = method.skips_blocks() && context.has(&BLOCK_RANGES) && context.scene.settings.method.block_first;
-    if context.passes == 1 && !method.marks_sections() && !first {
-        return Err("there is nothing to decide after the only main pass".into());
+    // Methods that switch rays on and off begin with the second main pass [KW03 §2.1], unless blocks are looked at first.
+    let blocks_first = context.has(&BLOCK_RANGES) && context.scene.settings.method.block_first;
+    if context.passes == 1 && !method.marks_sections() && !blocks_first {
+        return Err(ONLY_PASS.into());
     }
     Ok(())
 }

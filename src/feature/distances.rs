@@ -24,7 +24,7 @@ fn needed(context: &Context) -> Result<(), Why> {
     }
 }
 
-/// Of `near_neighbor.glsl`: how distances are looked up.
+/// The constants of `near_neighbor.glsl`: how distances are looked up.
 fn constants(context: &Context) -> Vec<Constant> {
     let Some(distance) = context.method.distance() else { return Vec::new() };
     let method = &context.scene.settings.method;

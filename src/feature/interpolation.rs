@@ -12,7 +12,7 @@ pub const SHADER_INTERPOLATION: Feature =
         Filter::Nearest => Err(Why::Untold),
     });
 
-/// Interpolation by whomever.
+/// Interpolation between voxels, whoever does it.
 pub const INTERPOLATION: Feature = Feature {
     constants,
     ..Feature::at(Hook::Sample, "interpolation", |context| match context.scene.settings.sampling.filter {
@@ -21,7 +21,7 @@ pub const INTERPOLATION: Feature = Feature {
     })
 };
 
-/// Of `volume.glsl`, by its codes.
+/// The constant FILTER of `volume.glsl`, by the codes there.
 fn constants(context: &Context) -> Vec<Constant> {
     let code = match context.scene.settings.sampling.filter {
         Filter::Hardware => 0,

@@ -19,25 +19,26 @@ mod reasons;
 mod transfer_function;
 
 pub use block_ranges::BLOCK_RANGES;
-pub use colors::COLORS;
 pub use counting::{BATCH, COUNTING};
-pub use decisions::{DECISIONS, LATER_DECISIONS, MARK_COPIES};
+pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
-pub use holes::HOLES;
-pub use opacity_correction::OPACITY_CORRECTION;
-pub use preintegration::PREINTEGRATION;
-pub use transfer_function::TRANSFER_FUNCTION;
 
 use crate::part::Constant;
 use crate::part::resource::{Access, Usage};
 use crate::part::rows::{Context, Feature, Hook};
+use colors::COLORS;
+use decisions::LATER_DECISIONS;
 use extra_fetches::EXTRA_FETCHES;
+use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
+use opacity_correction::OPACITY_CORRECTION;
+use preintegration::PREINTEGRATION;
+use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 17] = [
+pub const FEATURES: [&Feature; 16] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -54,14 +55,7 @@ pub const FEATURES: [&Feature; 17] = [
     &COUNTING,
     &TRANSFER_FUNCTION,
     &EXTRA_FETCHES,
-    &WAY_AHEAD,
 ];
-
-/// How a way is looked at that lies ahead: a sample stands for all values up to the next one, or not.
-const WAY_AHEAD: Feature = Feature {
-    constants: |context| vec![("SPANS", u32::from(context.scene.settings.sampling.spans()))],
-    ..Feature::at(Hook::Decide, "way ahead", |_| Ok(()))
-};
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {
     FEATURES.into_iter().filter(move |feature| feature.at == hook)
@@ -78,7 +72,7 @@ pub fn reads(context: &Context, hook: Hook) -> Vec<Access> {
     there.flat_map(|feature| (feature.reads)(context)).map(|resource| Usage::Sampled.of(resource)).collect()
 }
 
-/// The words of the variant of a shader with a hook.
+/// The words that name the variant of a shader with a hook, in table order.
 pub fn words(context: &Context, hook: Hook) -> Vec<&'static str> {
     let word = |feature: &'static Feature| if context.has(feature) { feature.with } else { feature.without };
     at(hook).filter_map(word).collect()

@@ -1,5 +1,6 @@
 //! Opacities for other lengths than the reference length.
 
+use super::preintegration::PREINTEGRATION;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::scene::settings::{Alpha, Last};
 
@@ -11,11 +12,17 @@ pub const OPACITY_CORRECTION: Feature = Feature {
 
 fn needed(context: &Context) -> Result<(), Why> {
     let sampling = &context.scene.settings.sampling;
-    match () {
-        () if sampling.alpha == Alpha::Paper => Err("alpha = \"paper\" takes opacities as they stand".into()),
-        () if sampling.last == Last::Partial => Ok(()),
-        () if sampling.spans() => Err("the pre-integrated table is made for the step".into()),
-        () if sampling.step == context.scene.transfer.reference => Err("the step is the reference length".into()),
-        () => Ok(()),
+    if sampling.alpha == Alpha::Paper {
+        return Err("alpha = \"paper\" takes opacities as they stand".into());
     }
+    if sampling.last == Last::Partial {
+        return Ok(());
+    }
+    if context.has(&PREINTEGRATION) {
+        return Err("the pre-integrated table is made for the step".into());
+    }
+    if sampling.step == context.scene.transfer.reference {
+        return Err("the step is the reference length".into());
+    }
+    Ok(())
 }

@@ -16,7 +16,7 @@ pub const TRANSFER_FUNCTION: Feature = Feature {
     })
 };
 
-/// Of `transfer.glsl`, and of `preintegrated.glsl`, whose axes go on beyond the first knot and the last.
+/// The constants of `transfer.glsl` and of `preintegrated.glsl`, whose axes go on beyond the first knot and the last.
 fn constants(context: &Context) -> Vec<Constant> {
     let pieces = context.scene.transfer.knots().len() as u32 + u32::from(context.has(&PREINTEGRATION));
     vec![("PIECES", pieces), ("SEARCH", pieces.next_power_of_two() / 2)]

@@ -7,6 +7,7 @@ use crate::part::rows::Method;
 /// A run and its pictures.
 #[derive(Clone, Debug)]
 pub struct Measured {
+    /// The method that made it.
     pub method: &'static Method,
     pub run: Run,
     pub picture: Picture,

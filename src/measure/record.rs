@@ -62,6 +62,8 @@ pub use super::entries::{
 };
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
+use crate::method;
+use crate::part::rows::Method;
 use crate::provenance::{self, DocumentFormat, Provenance};
 use crate::scene::Settings;
 
@@ -126,6 +128,11 @@ pub struct Results {
 }
 
 impl Run {
+    /// Whether its method is one of near-neighbor skipping, which marks rays with the pass of their next work.
+    pub fn marks_sections(&self) -> bool {
+        self.method.parse().ok().and_then(method::find).is_some_and(Method::marks_sections)
+    }
+
     /// `bounds + copy`, or whichever of the two there is.
     pub fn form(&self) -> Option<String> {
         match (&self.cull, &self.mark) {

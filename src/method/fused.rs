@@ -2,14 +2,14 @@
 
 use super::near_neighbor::by;
 use super::rows::{begin, decided, unswitched};
-use crate::feature::{DECISIONS, EARLY_ENDS};
+use crate::feature::{DECISIONS, EARLY_ENDS, MARK_COPIES};
 use crate::part::resource::Resource;
 use crate::part::rows::{Context, Method};
 use crate::part::steps::Steps;
 use crate::pass::clear::clear;
 use crate::pass::fused::fused;
 use crate::pass::near_neighbor::near_neighbor;
-use crate::scene::settings::{Distance, Mark};
+use crate::scene::settings::Distance;
 
 const fn row(distance: Distance, name: &'static str, about: &'static str) -> Method {
     Method { fused: true, steps, ..by(distance, name, about, "Thesis §5.7") }
@@ -33,7 +33,7 @@ fn steps(context: &Context, steps: &mut Steps) {
     steps.extend(context.has(&EARLY_ENDS).then(clear));
     steps.push(near_neighbor(context, 0, form));
     for pass in 0..context.passes {
-        decided(steps, pass, form, (form.mark == Mark::Copy).then_some(Resource::Marks));
+        decided(context, steps, pass, context.has(&MARK_COPIES).then_some(Resource::Marks));
         steps.push(fused(context, pass, form));
     }
 }

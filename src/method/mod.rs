@@ -71,8 +71,7 @@ const NAMES: [&str; METHODS.len()] = {
 impl<'de> Deserialize<'de> for MethodName {
     fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
         let name = String::deserialize(from)?;
-        let row = METHODS.iter().find(|method| method.name == name);
-        row.map(|method| method.name()).ok_or_else(|| D::Error::unknown_variant(&name, &NAMES))
+        name.parse().map_err(|_| D::Error::unknown_variant(&name, &NAMES))
     }
 }
 

@@ -55,7 +55,7 @@ fn steps(context: &Context, steps: &mut Steps) {
     steps.extend(context.has(&EARLY_ENDS).then(clear));
     for pass in 0..context.passes {
         steps.push(near_neighbor(context, pass, form));
-        decided(steps, pass, form, None);
+        decided(context, steps, pass, None);
         let end = section_end(pass, context.passes) as f32;
         steps.push(main_pass(context, pass, Some((form.cull, end))));
     }

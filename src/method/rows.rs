@@ -1,6 +1,6 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
-use crate::feature::{BATCH, DECISIONS, EARLY_ENDS};
+use crate::feature::{BATCH, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -52,9 +52,8 @@ pub fn culled_forms() -> Vec<Form> {
 
 /// ENTRY and DIR, which every ray caster begins with, after room was made for its passes.
 pub fn begin(context: &Context, steps: &mut Steps) {
-    let decides = context.form.is_some() && !context.method.fused;
-    let copies = context.form.is_some_and(|form| form.mark == Mark::Copy);
-    let a_pass = 1 + usize::from(decides) + usize::from(copies);
+    let decides = context.has(&DECISIONS) && !context.method.fused;
+    let a_pass = 1 + usize::from(decides) + usize::from(context.has(&MARK_COPIES));
     steps.reserve(a_pass * context.passes as usize + (context.passes / BATCH) as usize + STEPS_BEFORE);
     steps.push(entry::entry());
     steps.push(direction::direction());
@@ -77,7 +76,7 @@ pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Co
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
             steps.push(decide(context, pass, form));
-            decided(steps, pass, form, None);
+            decided(context, steps, pass, None);
             culled = Some((form.cull, SWITCH));
         }
         steps.push(main_pass::main_pass(context, pass, culled));
@@ -86,11 +85,11 @@ pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Co
 
 /// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
 /// count of rays left, with a target `beside` it.
-pub fn decided(steps: &mut Steps, pass: u32, form: Form, beside: Option<Resource>) {
-    if form.mark == Mark::Copy {
+pub fn decided(context: &Context, steps: &mut Steps, pass: u32, beside: Option<Resource>) {
+    if context.has(&MARK_COPIES) {
         steps.push(mark_copy::mark_copy(pass));
     }
-    if pass > 0 && pass.is_multiple_of(BATCH) {
+    if context.has(&COUNTING) && pass > 0 && pass.is_multiple_of(BATCH) {
         steps.push(alive::alive(pass, beside));
     }
 }

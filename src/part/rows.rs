@@ -45,6 +45,7 @@ pub struct Method {
     pub ends_rays: bool,
     /// Whether it runs on a device; else in f64 on the CPU.
     pub on_device: bool,
+    /// What it knows of what lies ahead.
     pub ahead: Ahead,
     /// Whether main passes decide where the ray goes on, so that intermediate passes after the first are not needed.
     pub fused: bool,
@@ -98,15 +99,9 @@ impl Method {
         self.ahead != Ahead::Nothing
     }
 
-    /// Main and intermediate passes are culled by the same bound, in which a ray is marked with the pass of its next work.
+    /// Whether main and intermediate passes are culled by the same bound, in which a ray is marked with the pass of its next work.
     pub fn marks_sections(&self) -> bool {
         self.distance().is_some()
-    }
-}
-
-impl PartialEq for Method {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
     }
 }
 
@@ -154,10 +149,11 @@ pub struct Feature {
     pub name: &'static str,
     /// Whether the frame has it, else why not.
     pub needed: fn(&Context) -> Result<(), Why>,
+    /// Where in a shader it works.
     pub at: Hook,
-    /// The variant's word of shaders that have it.
+    /// The word in the variant's name of shaders that have it.
     pub with: Option<&'static str>,
-    /// The variant's word of shaders that lack it.
+    /// The word in the variant's name of shaders that lack it.
     pub without: Option<&'static str>,
     /// Specialization constants, whether the frame has it or not.
     pub constants: fn(&Context) -> Vec<Constant>,

@@ -23,7 +23,8 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     let endless = if context.has(&EARLY_ENDS) { "" } else { "+endless" };
     let shader = format!("block_skip.frag:{}{endless}", form.mark_variant());
     let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
-    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    let scene = context.scene;
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Decide));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("block_skip #{pass}"), Group::Intermediate, pass, accesses, draw)

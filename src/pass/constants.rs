@@ -8,6 +8,11 @@ pub fn samples(scene: &Scene) -> Constant {
     ("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)
 }
 
+/// Of passes that look ahead: a sample stands for all values up to the next one.
+pub fn spans(scene: &Scene) -> Constant {
+    ("SPANS", u32::from(scene.settings.sampling.spans()))
+}
+
 /// Of `mark.glsl`: how marks that are copied are written.
 pub fn depth_bits(scene: &Scene) -> Constant {
     ("DEPTH_BITS", scene.settings.method.depth.bits())

@@ -36,10 +36,11 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     words.extend(feature::words(context, Hook::Decide));
     let mut draw = Draw::plain(Faces::Front, &format!("fused.frag:{}", words.join("+")), reference::fused::fused);
     draw.blend = true;
-    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    let scene = context.scene;
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Sample));
     draw.specialize(feature::constants(context, Hook::Decide));
-    let rounding = reference::fused::blend_rounding(context.scene.settings.image.accumulate);
+    let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     if let Some(mark) = marks {

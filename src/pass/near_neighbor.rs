@@ -29,7 +29,8 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     words.extend(feature::words(context, Hook::Decide));
     let shader = format!("near_neighbor.frag:{}", words.join("+"));
     let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
-    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    let scene = context.scene;
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Decide));
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);

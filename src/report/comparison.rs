@@ -47,13 +47,13 @@ pub fn label(run: &Run) -> String {
     if run.method == BASELINE && run.settings.method.block_first {
         label.push_str(" (block first)");
     }
-    if run.method.starts_with("nn-") && !run.settings.method.exit_lookahead {
+    if run.marks_sections() && !run.settings.method.exit_lookahead {
         label.push_str(" (no lookahead)");
     }
-    if run.method.starts_with("nn-") && run.settings.method.cell != 1 {
+    if run.marks_sections() && run.settings.method.cell != 1 {
         let _ = write!(label, " (cell {})", run.settings.method.cell);
     }
-    if run.method.starts_with("nn-") && run.settings.method.lookups != 1 {
+    if run.marks_sections() && run.settings.method.lookups != 1 {
         let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
     }
     label
@@ -218,13 +218,12 @@ impl Sheet {
                 let text = if error.max == 0.0 { "0".to_string() } else { format!("{:.1e}", error.max) };
                 match error.undecided {
                     0 => value(text),
-                    n => self.noted(
-                        &text,
-                        format!(
-                            "{} pixels in which f32 cannot decide what a sample meets are left out of the maximum",
-                            thousands(n)
-                        ),
-                    ),
+                    n => {
+                        let pixels = if n == 1 { "1 pixel".to_owned() } else { format!("{} pixels", thousands(n)) };
+                        let verb = if n == 1 { "is" } else { "are" };
+                        let note = "in which f32 cannot decide what a sample meets";
+                        self.noted(&text, format!("{pixels} {note} {verb} left out of the maximum"))
+                    }
                 }
             }
         }

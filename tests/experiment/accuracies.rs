@@ -154,7 +154,7 @@ fn front_and_answers_are_what_nothing_beats() {
     assert_eq!((curve.name().as_str(), at.step), ("nn-omni, midpoint", 1.0));
     let answers = answers(&found.curves);
     assert!(
-        answers[0].contains("1/255, nn-omni, midpoint at a step of 1 voxels is the fastest: 15.00 ms"),
+        answers[0].contains("1/255, nn-omni, midpoint at a step of 1 voxel is the fastest: 15.00 ms"),
         "{answers:?}"
     );
     assert!(answers[1].contains("1/1000, nn-omni, midpoint at a step of 0.5 voxels"), "{answers:?}");

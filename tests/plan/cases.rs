@@ -44,9 +44,13 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni_ztest_copy_cell-4", method::NN_OMNI.name(), form(Ztest, Mark::Copy), false),
         ("nn-directional_ztest_copy", method::NN_DIRECTIONAL.name(), form(Ztest, Mark::Copy), false),
         ("nn-optimal_ztest_copy", method::NN_OPTIMAL.name(), form(Ztest, Mark::Copy), false),
+        ("nn-cone_ztest_copy", method::NN_CONE.name(), form(Ztest, Mark::Copy), false),
         ("nn-omni+fused_bounds_fragdepth", method::NN_OMNI_FUSED.name(), form(Bounds, Fragdepth), false),
         ("nn-omni+fused_ztest_copy", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy), false),
         ("nn-omni+fused_discard_copy", method::NN_OMNI_FUSED.name(), form(Discard, Mark::Copy), false),
+        ("nn-directional+fused_ztest_copy", method::NN_DIRECTIONAL_FUSED.name(), form(Ztest, Mark::Copy), false),
+        ("nn-optimal+fused_ztest_copy", method::NN_OPTIMAL_FUSED.name(), form(Ztest, Mark::Copy), false),
+        ("nn-cone+fused_ztest_copy", method::NN_CONE_FUSED.name(), form(Ztest, Mark::Copy), false),
     ];
     let mut cases: Vec<Case> = rows
         .map(|(name, method, form, block_first)| {

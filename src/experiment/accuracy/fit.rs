@@ -53,9 +53,10 @@ pub fn answers(curves: &[Curve]) -> Vec<String> {
         .into_iter()
         .map(|(name, error)| match fastest(curves, error) {
             Some((curve, point)) => format!(
-                "For an error of at most {name}, {} at a step of {} voxels is the fastest: {:.2} ms, largest error {:.1e}.",
+                "For an error of at most {name}, {} at a step of {} voxel{} is the fastest: {:.2} ms, largest error {:.1e}.",
                 curve.name(),
                 point.step,
+                if point.step == 1.0 { "" } else { "s" },
                 point.time().unwrap_or_default(),
                 point.max.unwrap_or_default()
             ),
