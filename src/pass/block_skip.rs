@@ -18,8 +18,8 @@ pub fn block_skip(scene: &Scene, needs: Needs, pass: u32, form: cull::Form) -> S
         Usage::Sampled.of(Resource::BlockTable),
     ];
     accesses.extend(needs.ends.then_some(Usage::Sampled.of(Resource::Accumulated)));
-    let shader = format!("block_skip.frag:{}", needs.variant(vec![form.mark_variant()]));
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
+    let mut draw = Draw::plain(Faces::Front, "block_skip.frag", reference::block_skip::block_skip);
+    draw.define((!needs.ends).then_some("ENDLESS"));
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("block_skip #{pass}"), Group::Intermediate, pass, accesses, draw)

@@ -61,15 +61,15 @@ pub fn spans(scene: &Scene) -> Constant {
     ("SPANS", u32::from(scene.settings.sampling.spans()))
 }
 
-/// What classifies samples: the resources, and the macros' variant that reads them.
+/// What classifies samples: the resources, and the define of the shader that reads them.
 pub fn classification(scene: &Scene, needs: Needs) -> (Vec<Access>, Option<&'static str>) {
     let transfer = if needs.colors { Resource::Transfer } else { Resource::GreyTransfer };
     let sampled = |resources: &[Resource]| resources.iter().map(|r| Usage::Sampled.of(*r)).collect();
     if scene.settings.sampling.spans() {
-        return (sampled(&[Resource::Preintegrated, Resource::Axis]), Some("preintegrated"));
+        return (sampled(&[Resource::Preintegrated, Resource::Axis]), Some("PREINTEGRATED"));
     }
     if scene.field.holes.is_some() {
-        return (sampled(&[transfer, Resource::Holes]), Some("holes"));
+        return (sampled(&[transfer, Resource::Holes]), Some("HOLES"));
     }
     (sampled(&[transfer]), None)
 }

@@ -6,7 +6,6 @@ use super::{Draw, Faces, Group, Needs, Step, constants};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
-use crate::scene::settings::Cull;
 
 /// Main pass `pass` of `passes`, for rays whose stored section begins at or before it. The last one has nothing left to
 /// decide and marks nothing.
@@ -24,16 +23,10 @@ pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) ->
     // Its own opacity is read where a ray may end.
     let drawn = if needs.ends { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(Resource::Accumulated));
-    let marks = (pass + 1 < passes).then_some(form.mark);
-    let mut variant = vec![marks.map_or("last", |_| form.mark_variant())];
-    if form.cull == Cull::Discard {
-        variant.push("discard");
-    }
     let (classified, by) = constants::classification(scene, needs);
     accesses.extend(classified);
-    variant.extend(by);
-    let shader = format!("fused.frag:{}", needs.variant(variant));
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::fused::fused);
+    let mut draw = Draw::plain(Faces::Front, "fused.frag", reference::fused::fused);
+    draw.define(needs.defines().chain(by));
     draw.blend = true;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
     draw.specialize(constants::segment(scene, needs));
@@ -41,8 +34,10 @@ pub fn fused(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: Form) ->
     let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, passes) as f32);
-    if let Some(mark) = marks {
-        cull::mark_into(&mut draw, &mut accesses, mark, cull::rising(mark));
+    if pass + 1 < passes {
+        cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
+    } else {
+        draw.define(["MARK_NONE"]);
     }
     Step::drawn(format!("fused #{pass}"), Group::Main, pass, accesses, draw)
 }

@@ -18,10 +18,8 @@ pub fn main_pass(scene: &Scene, needs: Needs, pass: u32, culled: Option<(Cull, f
     ];
     let (classified, by) = constants::classification(scene, needs);
     accesses.extend(classified);
-    let discard = matches!(culled, Some((Cull::Discard, _))).then_some("discard");
-    let variant: Vec<&str> = discard.into_iter().chain(by).collect();
-    let variant = if variant.is_empty() { "plain".to_owned() } else { variant.join("+") };
-    let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
+    let mut draw = Draw::plain(Faces::Front, "main_pass.frag", reference::main_pass::main_pass);
+    draw.define(by);
     draw.blend = true;
     draw.specialize([constants::samples(scene)]);
     draw.specialize(constants::segment(scene, needs));

@@ -22,6 +22,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use crate::glsl::Shader;
 use crate::reference::TwinPass;
 use crate::shared::Slice;
 use resource::{Access, Resource};
@@ -66,11 +67,10 @@ pub struct Needs {
 impl Needs {
     pub const ALL: Self = Self { ends: true, skips: true, colors: true };
 
-    /// The variant of an intermediate shader that does no more than that.
-    pub fn variant(self, mut plain: Vec<&str>) -> String {
-        plain.extend((!self.skips).then_some("dense"));
-        plain.extend((!self.ends).then_some("endless"));
-        plain.join("+")
+    /// What leaves the code out of a shader that decides about rays which these rays do not need.
+    pub fn defines(self) -> impl Iterator<Item = &'static str> {
+        let (dense, endless) = ((!self.skips).then_some("DENSE"), (!self.ends).then_some("ENDLESS"));
+        dense.into_iter().chain(endless)
     }
 }
 
@@ -123,14 +123,24 @@ pub enum Work {
     },
 }
 
+impl Work {
+    /// What is compiled for it; none where nothing is drawn or computed, or the vertex shader does.
+    pub fn shader(&self) -> Option<&Arc<Shader>> {
+        match self {
+            Self::Draw(draw) => draw.shader.as_ref(),
+            Self::Dispatch(dispatch) => Some(&dispatch.shader),
+            Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } => None,
+        }
+    }
+}
+
 /// A specialization constant: its name and its value, a number of any type as its 32 bits.
 pub type Constant = (&'static str, u32);
 
 /// A compute step of a structure's build, run in slices.
 #[derive(Clone, Debug)]
 pub struct Dispatch {
-    /// Compute shader, with its variant.
-    pub shader: String,
+    pub shader: Arc<Shader>,
     /// Specialization constants, by name.
     pub constants: Vec<Constant>,
     /// What is bound, by the names in the shader.
@@ -150,8 +160,8 @@ pub struct Draw {
     /// The greatest stored depth with which a fragment takes part, where the step is culled.
     pub bound: f32,
     pub test: DepthTest,
-    /// Fragment shader, with its variant; none where only the count matters.
-    pub shader: Option<Arc<str>>,
+    /// The fragment shader; none where only the count matters.
+    pub shader: Option<Arc<Shader>>,
     /// Specialization constants, by name.
     pub constants: Arc<Vec<Constant>>,
     /// Put under what is there [KW03 §1.1], rather than replacing it.
@@ -182,17 +192,24 @@ impl DepthTest {
 }
 
 impl Draw {
-    /// A step that draws `faces` with a shader and no depth.
-    pub fn plain(faces: Faces, shader: &str, twin: TwinPass) -> Self {
+    /// A step that draws `faces` with the fragment shader in `file` and no depth.
+    pub fn plain(faces: Faces, file: &'static str, twin: TwinPass) -> Self {
         Self {
             faces,
             depth: 1.0,
             bound: 1.0,
             test: DepthTest::NONE,
-            shader: Some(shader.into()),
+            shader: Some(Arc::new(Shader::new(file, []))),
             constants: Arc::default(),
             blend: false,
             twin: Some(twin),
+        }
+    }
+
+    /// Adds defines to the shader's.
+    pub fn define(&mut self, defines: impl IntoIterator<Item = &'static str>) {
+        if let Some(shader) = &mut self.shader {
+            Arc::make_mut(shader).defines.extend(defines);
         }
     }
 

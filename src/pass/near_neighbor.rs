@@ -5,7 +5,7 @@ use super::{Draw, Faces, Group, Needs, Step, constants, cull};
 use crate::reference;
 use crate::reference::section::section_end;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, Mark};
+use crate::scene::settings::Mark;
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: cull::Form) -> Step {
@@ -19,12 +19,8 @@ pub fn near_neighbor(scene: &Scene, needs: Needs, pass: u32, passes: u32, form: 
     accesses.extend(needs.skips.then_some(Usage::Sampled.of(Resource::NearestDistance)));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
-    let variant = match form.mark {
-        Mark::Copy if culled && form.cull == Cull::Discard => "copy+discard",
-        _ => form.mark_variant(),
-    };
-    let shader = format!("near_neighbor.frag:{}", needs.variant(vec![variant]));
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
+    let mut draw = Draw::plain(Faces::Front, "near_neighbor.frag", reference::near_neighbor::near_neighbor);
+    draw.define(needs.defines());
     draw.specialize([constants::samples(scene), constants::depth_bits(scene)]);
     draw.specialize(constants::near_neighbor(scene));
     if culled {

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::hash::Hash;
 use std::sync::Arc;
 
+use crate::glsl::Shader;
 use crate::pass::cull::{Form, Mark};
 use crate::pass::resource::{Access, Resource};
 use crate::pass::{
@@ -26,13 +27,13 @@ const SWITCH: f32 = 0.25;
 const STEPS_BEFORE: usize = 32;
 
 /// Steps in order. Those of thousands of passes hardly differ, so they hold one list of accesses, one of constants and one
-/// shader's name together.
+/// shader together.
 #[derive(Default)]
 struct Steps {
     list: Vec<Step>,
     accesses: HashSet<Arc<Vec<Access>>>,
     constants: HashSet<Arc<Vec<Constant>>>,
-    shaders: HashSet<Arc<str>>,
+    shaders: HashSet<Arc<Shader>>,
 }
 
 impl Steps {
@@ -62,7 +63,7 @@ impl Steps {
 }
 
 /// Takes what was seen before in place of its equal.
-fn share<T: ?Sized + Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>) {
+fn share<T: Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>) {
     match seen.get(of_step) {
         Some(before) => *of_step = before.clone(),
         None => {

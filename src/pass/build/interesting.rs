@@ -1,6 +1,7 @@
 //! Which cells are interesting: a bit for each, from the volume or from the ranges of larger cells.
 
 use super::{dispatch, slice, words_of_bits};
+use crate::glsl::Shader;
 use crate::pass::Step;
 use crate::pass::resource::Resource;
 use crate::structure::grid::Grid;
@@ -9,15 +10,14 @@ use crate::structure::grid::Grid;
 /// of the nearest voxel, and every voxel of a cell is looked at by itself.
 pub fn interesting(grid: &Grid, holes: bool, nearest: bool) -> Step {
     let holes = holes && grid.cell == 1;
-    let shader = match (nearest, holes) {
-        (false, _) if grid.cell > 1 => "structure/interesting.comp:ranges",
-        (false, false) => "structure/interesting.comp:voxels",
-        (false, true) => "structure/interesting.comp:voxels+holes",
-        (true, false) => "structure/interesting.comp:nearest",
-        (true, true) => "structure/interesting.comp:nearest+holes",
-    };
+    let mut shader = Shader::new("structure/interesting.comp", []);
+    shader.defines.extend(nearest.then_some("NEAREST"));
+    shader.defines.extend(holes.then_some("HOLES"));
     let mut reads = match ranges_are_read(grid, nearest) {
-        true => vec![("cell_range", Resource::CellRange)],
+        true => {
+            shader.defines.insert("RANGES");
+            vec![("cell_range", Resource::CellRange)]
+        }
         false => vec![("volume", Resource::Volume)],
     };
     reads.extend(holes.then_some(("holes", Resource::Holes)));
