@@ -48,7 +48,7 @@ fn is_define(text: &str) -> bool {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Takes {
     choices: Vec<Choice>,
-    /// The line that says it, counted from 1; the first line of a shader that takes nothing.
+    /// The first line that says it, counted from 1; the first line of a shader that takes nothing.
     line: usize,
 }
 
