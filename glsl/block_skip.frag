@@ -6,10 +6,7 @@
 // the neighbour. 3. An empty segment is marked apart from a dead ray, so that the frame knows when all are dead.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant fragdepth MARK_FRAGDEPTH
-//@variant fragdepth-any MARK_FRAGDEPTH_ANY
-//@variant copy MARK_COPY
-//@also endless ENDLESS
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"

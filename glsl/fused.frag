@@ -14,26 +14,8 @@
 // blend unit has rounded it; the others are found at 1. in the pass that follows.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant fragdepth MARK_FRAGDEPTH
-//@variant fragdepth+holes MARK_FRAGDEPTH HOLES
-//@variant fragdepth+preintegrated MARK_FRAGDEPTH PREINTEGRATED
-//@variant fragdepth-any MARK_FRAGDEPTH_ANY
-//@variant fragdepth-any+holes MARK_FRAGDEPTH_ANY HOLES
-//@variant fragdepth-any+preintegrated MARK_FRAGDEPTH_ANY PREINTEGRATED
-//@variant copy MARK_COPY
-//@variant copy+holes MARK_COPY HOLES
-//@variant copy+preintegrated MARK_COPY PREINTEGRATED
-//@variant copy+discard MARK_COPY CULL_DISCARD
-//@variant copy+discard+holes MARK_COPY CULL_DISCARD HOLES
-//@variant copy+discard+preintegrated MARK_COPY CULL_DISCARD PREINTEGRATED
-//@variant last MARK_NONE
-//@variant last+holes MARK_NONE HOLES
-//@variant last+preintegrated MARK_NONE PREINTEGRATED
-//@variant last+discard MARK_NONE CULL_DISCARD
-//@variant last+discard+holes MARK_NONE CULL_DISCARD HOLES
-//@variant last+discard+preintegrated MARK_NONE CULL_DISCARD PREINTEGRATED
-//@also dense DENSE
-//@also endless ENDLESS
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
+//@takes [DENSE], [ENDLESS]
 
 // RES comes first.
 #define MARK_LOCATION 1

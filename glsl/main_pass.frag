@@ -5,12 +5,7 @@
 // writes opacity 1 to RES for it, which would change the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant plain
-//@variant holes HOLES
-//@variant discard CULL_DISCARD
-//@variant discard+holes CULL_DISCARD HOLES
-//@variant preintegrated PREINTEGRATED
-//@variant discard+preintegrated CULL_DISCARD PREINTEGRATED
+//@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"

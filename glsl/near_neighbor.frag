@@ -7,12 +7,7 @@
 // counts it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant fragdepth MARK_FRAGDEPTH
-//@variant fragdepth-any MARK_FRAGDEPTH_ANY
-//@variant copy MARK_COPY
-//@variant copy+discard MARK_COPY CULL_DISCARD
-//@also dense DENSE
-//@also endless ENDLESS
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD], [DENSE], [ENDLESS]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"

@@ -4,9 +4,7 @@
 // Departure: that a ray has left the volume is known from its length, not from an opacity of 1 in RES.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant fragdepth MARK_FRAGDEPTH
-//@variant fragdepth-any MARK_FRAGDEPTH_ANY
-//@variant copy MARK_COPY
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"

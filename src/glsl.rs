@@ -1,97 +1,81 @@
-//! The program's SPIR-V modules by name.
+//! The program's shaders: GLSL files with the defines they are compiled with, and their SPIR-V.
 //!
-//! `tools/build.rs` compiles all of `glsl/` while building, so that the program needs no shader compiler. With the
-//! feature `runtime-shaders` and `set_directory` the same compiler runs on each request instead, for people who
-//! change a shader and want to see what happens.
+//! A [`Shader`] is data: a file of `glsl/` and a set of defines out of those that the file takes ([`takes`]). The files
+//! are built into the program ([`source`]). A module is compiled when it is first asked for ([`compile`]), and lies on disk
+//! from then on ([`cache`]). With [`set_directory`] the files come from a folder instead, for people who change a shader and
+//! want to see what happens.
 
-#[cfg(feature = "runtime-shaders")]
-mod compile;
+pub mod cache;
+pub mod compile;
+pub mod library;
+mod shader;
+pub mod source;
+pub mod takes;
+
+use std::path::PathBuf;
+use std::sync::{Arc, LazyLock, PoisonError, RwLock};
+
+pub use shader::Shader;
 
 use crate::error::{Error, Result};
-use std::borrow::Cow;
+use cache::Cache;
+use library::{Library, broken};
+use source::Source;
 
-/// Bytes that lie where words may lie.
-#[repr(C, align(4))]
-struct Words<T: ?Sized>(T);
+// FILES: paths below `glsl/` and texts.
+include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
-include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+/// What the functions below ask.
+static LIBRARY: LazyLock<RwLock<Arc<Library>>> =
+    LazyLock::new(|| RwLock::new(Arc::new(Library::new(built_in(), Cache::of_user()))));
 
-/// Names of all modules the program was built with, sorted: `main_pass.frag`, `structure/cell_range.comp`,
-/// variants as `main_pass.frag:discard`.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    MODULES.iter().map(|(name, _)| *name)
+fn library() -> Arc<Library> {
+    LIBRARY.read().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// The SPIR-V words of the module `name`, from the directory of `set_directory` where one is set.
+/// The files that the program was built with.
+pub fn built_in() -> Source {
+    Source::BuiltIn(FILES)
+}
+
+/// From now on shaders come from the files of `directory`, laid out like `glsl/`.
 ///
 /// # Errors
-/// A name that is not among [`names`], with the one most like it; a shader in that directory that does not
-/// compile, with the compiler's text.
-pub fn module(name: &str) -> Result<Cow<'static, [u32]>> {
-    #[cfg(feature = "runtime-shaders")]
-    if let Some(root) = runtime::directory() {
-        return runtime::module(&root, name).map(Cow::Owned);
+/// A directory that is not there or holds no shader.
+pub fn set_directory(directory: PathBuf) -> Result<()> {
+    let source = Source::Folder(directory.clone());
+    if source.shaders().map_err(broken)?.is_empty() {
+        return Err(Error::usage(
+            directory.display(),
+            "holds no .vert, .frag or .comp file",
+            "name a folder laid out like glsl/",
+        ));
     }
-    let found = MODULES.binary_search_by(|(other, _)| (*other).cmp(name)).ok();
-    match found.and_then(|index| bytemuck::try_cast_slice(&MODULES[index].1.0).ok()) {
-        Some(words) => Ok(Cow::Borrowed(words)),
-        None => Err(unknown(name, names())),
-    }
+    let new = Arc::new(Library::new(source, Cache::of_user()));
+    *LIBRARY.write().unwrap_or_else(PoisonError::into_inner) = new;
+    Ok(())
 }
 
-fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let near = known.max_by(|a, b| strsim::jaro(name, a).total_cmp(&strsim::jaro(name, b)));
-    let remedy = match near {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "there are no shaders at all; put them into glsl/ and build again".to_string(),
-    };
-    Error::usage(format!("shader {name}"), "there is no such module", remedy)
+/// The SPIR-V words of a shader.
+///
+/// # Errors
+/// As [`Library::module`].
+pub fn module(shader: &Shader) -> Result<Arc<[u32]>> {
+    library().module(shader)
 }
 
-#[cfg(feature = "runtime-shaders")]
-pub use runtime::set_directory;
+/// Makes the modules of all these shaders, on all cores, for those who ask for one after the other.
+///
+/// # Errors
+/// As [`Library::module`].
+pub fn prepare<'a>(shaders: impl IntoIterator<Item = &'a Shader>) -> Result<()> {
+    library().prepare(shaders)
+}
 
-#[cfg(feature = "runtime-shaders")]
-mod runtime {
-    use super::{compile, unknown};
-    use crate::error::{Error, Result};
-    use std::path::{Path, PathBuf};
-    use std::sync::{PoisonError, RwLock};
-
-    static DIRECTORY: RwLock<Option<PathBuf>> = RwLock::new(None);
-
-    /// From now on [`super::module`] compiles from `directory`, laid out like `glsl/`, on every call.
-    ///
-    /// # Errors
-    /// A directory that is not there or holds no shader.
-    pub fn set_directory(directory: PathBuf) -> Result<()> {
-        if compile::modules(&directory).map_err(error)?.is_empty() {
-            return Err(Error::usage(
-                directory.display(),
-                "holds no .vert, .frag or .comp file",
-                "name a folder laid out like glsl/",
-            ));
-        }
-        *DIRECTORY.write().unwrap_or_else(PoisonError::into_inner) = Some(directory);
-        Ok(())
-    }
-
-    pub(super) fn directory() -> Option<PathBuf> {
-        DIRECTORY.read().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    pub(super) fn module(root: &Path, name: &str) -> Result<Vec<u32>> {
-        let modules = compile::modules(root).map_err(error)?;
-        let module = modules.iter().find(|module| module.name == name);
-        let module = module.ok_or_else(|| unknown(name, modules.iter().map(|module| module.name.as_str())))?;
-        let compiled = compile::compile(root, module).map_err(error)?;
-        if !compiled.warnings.is_empty() {
-            eprint!("{}", compiled.warnings);
-        }
-        Ok(compiled.words)
-    }
-
-    fn error(broken: compile::Broken) -> Error {
-        Error::input(broken.place, broken.text, "mend the shader")
-    }
+/// Whether any set of defines gives a file the specialization constant of that name.
+///
+/// # Errors
+/// A file that is not there.
+pub fn declares(file: &str, constant: &str) -> Result<bool> {
+    library().declares(file, constant)
 }

@@ -33,15 +33,15 @@ fn steps(plan: &Plan, group: Group) -> usize {
 
 /// Shaders of a plan, as they are compiled.
 fn shaders(plan: &Plan) -> Vec<Shader> {
-    let names: BTreeSet<String> = plan
+    let shaders: BTreeSet<_> = plan
         .steps
         .iter()
         .filter_map(|step| match &step.work {
-            Work::Draw(draw) => draw.shader.as_deref().map(str::to_owned),
+            Work::Draw(draw) => draw.shader.clone(),
             _ => None,
         })
         .collect();
-    names.iter().map(|name| Shader::new(name, &glsl::module(name).unwrap()).unwrap()).collect()
+    shaders.iter().map(|one| Shader::new(&one.to_string(), &glsl::module(one).unwrap()).unwrap()).collect()
 }
 
 #[test]

@@ -3,23 +3,13 @@
 #[path = "device/shader.rs"]
 mod shader;
 
-#[path = "plan/cases.rs"]
-mod cases;
+#[path = "glsl/module.rs"]
+mod module;
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use depthleap::glsl;
-use depthleap::part::Work;
+use depthleap::glsl::Shader as Source;
 use depthleap::shared;
 use depthleap::vulkan::{Shader, vk};
-
-fn module(name: &str) -> Shader {
-    Shader::new(name, &glsl::module(name).unwrap()).unwrap()
-}
-
-fn has(shader: &Shader, mode: &str) -> bool {
-    shader.execution_modes.iter().any(|one| one == mode)
-}
+use module::{compiled, module};
 
 /// Names, binding numbers, kinds.
 fn bindings(shader: &Shader) -> Vec<(&str, u32, vk::DescriptorType)> {
@@ -31,7 +21,7 @@ const TEXTURE: vk::DescriptorType = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
 
 #[test]
 fn main_pass_binds_what_it_declares() {
-    let shader = module("main_pass.frag:plain");
+    let shader = module("main_pass.frag");
     assert_eq!(shader.stage, vk::ShaderStageFlags::FRAGMENT);
     let expected = [
         ("frame", 0, vk::DescriptorType::UNIFORM_BUFFER),
@@ -41,7 +31,7 @@ fn main_pass_binds_what_it_declares() {
         ("transfer", 5, vk::DescriptorType::STORAGE_BUFFER),
     ];
     assert_eq!(bindings(&shader), expected);
-    let holes = module("main_pass.frag:discard+holes");
+    let holes = module("main_pass.frag:CULL_DISCARD+HOLES");
     let more = [("holes", 4, TEXTURE), ("stored", 6, TEXTURE)];
     let mut expected = [&expected[..], &more].concat();
     expected.sort_by_key(|one| one.1);
@@ -51,31 +41,46 @@ fn main_pass_binds_what_it_declares() {
 #[test]
 fn fused_pass_reads_what_it_blends_into() {
     let accumulated = ("accumulated", 7, vk::DescriptorType::INPUT_ATTACHMENT);
-    for variant in ["copy", "fragdepth", "last", "copy+discard+holes"] {
-        let shader = module(&format!("fused.frag:{variant}"));
-        assert!(bindings(&shader).contains(&accumulated), "{variant}: {:?}", shader.bindings);
+    for name in [
+        "fused.frag:MARK_COPY",
+        "fused.frag:MARK_FRAGDEPTH",
+        "fused.frag:MARK_NONE",
+        "fused.frag:CULL_DISCARD+HOLES+MARK_COPY",
+    ] {
+        let shader = module(name);
+        assert!(bindings(&shader).contains(&accumulated), "{name}: {:?}", shader.bindings);
     }
-    assert!(!bindings(&module("near_neighbor.frag:copy")).contains(&accumulated), "another pass samples it");
+    assert!(!bindings(&module("near_neighbor.frag:MARK_COPY")).contains(&accumulated), "another pass samples it");
 }
 
 #[test]
 fn what_a_scene_does_not_need_is_not_in_its_shaders() {
-    let has = |name: &str, what: &str| bindings(&module(name)).iter().any(|(bound, ..)| *bound == what);
-    for pass in ["near_neighbor.frag:copy", "near_neighbor.frag:fragdepth", "fused.frag:copy", "fused.frag:last+holes"]
-    {
-        assert!(has(pass, "nearest_distance") && has(pass, "accumulated"), "{pass}");
-        assert!(!has(&format!("{pass}+dense"), "nearest_distance"), "{pass}");
-        assert!(!has(&format!("{pass}+endless"), "accumulated"), "{pass}");
+    let has = |file: &'static str, defines: &[&'static str], what: &str| {
+        let shader = compiled(&Source::new(file, defines.iter().copied()));
+        bindings(&shader).iter().any(|(bound, ..)| *bound == what)
+    };
+    for (file, mark) in [
+        ("near_neighbor.frag", "MARK_COPY"),
+        ("near_neighbor.frag", "MARK_FRAGDEPTH"),
+        ("fused.frag", "MARK_COPY"),
+        ("fused.frag", "MARK_NONE"),
+    ] {
+        let all = ["nearest_distance", "accumulated"].map(|what| has(file, &[mark], what));
+        assert_eq!(all, [true, true], "{file} {mark}");
+        assert!(!has(file, &[mark, "DENSE"], "nearest_distance"), "{file} {mark}");
+        assert!(!has(file, &[mark, "ENDLESS"], "accumulated"), "{file} {mark}");
     }
-    assert!(has("block_skip.frag:copy", "accumulated") && !has("block_skip.frag:copy+endless", "accumulated"));
-    let table = ["transfer", "preintegrated"].map(|what| has("main_pass.frag:preintegrated", what));
-    assert_eq!((table, has("main_pass.frag:plain", "transfer")), ([false, true], true));
+    let ends = [&["MARK_COPY"][..], &["MARK_COPY", "ENDLESS"]].map(|set| has("block_skip.frag", set, "accumulated"));
+    assert_eq!(ends, [true, false]);
+    let table = ["transfer", "preintegrated"].map(|what| has("main_pass.frag", &["PREINTEGRATED"], what));
+    assert_eq!((table, has("main_pass.frag", &[], "transfer")), ([false, true], true));
 }
 
 #[test]
 fn last_fused_pass_has_nothing_to_decide() {
-    let decides = |name: &str| module(name).spec_constants.iter().any(|(name, _)| name == "BLEND_ROUNDING");
-    assert!(decides("fused.frag:copy") && !decides("fused.frag:last") && !decides("fused.frag:last+discard"));
+    let decides = |name| module(name).spec_constants.iter().any(|(name, _)| name == "BLEND_ROUNDING");
+    assert!(decides("fused.frag:MARK_COPY") && !decides("fused.frag:MARK_NONE"));
+    assert!(!decides("fused.frag:MARK_NONE+CULL_DISCARD"));
 }
 
 #[test]
@@ -103,42 +108,16 @@ fn arrays_have_their_length() {
 
 #[test]
 fn push_constants_are_as_large_as_their_struct() {
-    for name in ["main_pass.frag:plain", "termination.frag:copy", "near_neighbor.frag:copy+discard"] {
+    for name in ["main_pass.frag", "termination.frag:MARK_COPY", "near_neighbor.frag:MARK_COPY+CULL_DISCARD"] {
         assert_eq!(module(name).push_constants as usize, size_of::<shared::Step>(), "{name}");
     }
     assert_eq!(module("entry.frag").push_constants, 0, "declared in a header, and used nowhere");
     assert_eq!(shader::shader("vulkan/color.frag").push_constants, 16);
 }
 
-/// A module lacks the constants it has no use for; one that no variant of its file has is misspelt.
-#[test]
-fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
-    let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let file = |name: &str| name.split(':').next().unwrap_or(name).to_owned();
-    for name in glsl::names() {
-        let found = module(name).spec_constants.into_iter().map(|(constant, _)| constant);
-        known.entry(file(name)).or_default().extend(found);
-    }
-    let mut asked = 0;
-    for case in cases::cases() {
-        for step in &case.plan.steps {
-            let (shader, constants) = match &step.work {
-                Work::Draw(draw) => (draw.shader.as_deref().unwrap_or_default(), draw.constants.as_slice()),
-                Work::Dispatch(dispatch) => (dispatch.shader.as_str(), dispatch.constants.as_slice()),
-                _ => continue,
-            };
-            for (constant, _) in constants {
-                assert!(known[&file(shader)].contains(*constant), "{constant} of {} in {}", step.name, case.name);
-                asked += 1;
-            }
-        }
-    }
-    assert!(asked > 100, "{asked} constants were looked at");
-}
-
 #[test]
 fn specialization_constants_have_their_names_and_ids() {
-    let constants = |name: &str| {
+    let constants = |name| {
         let mut found = module(name).spec_constants;
         found.sort_by_key(|one| one.1);
         found
@@ -154,99 +133,13 @@ fn specialization_constants_have_their_names_and_ids() {
         ("EXTRA_FETCHES", 11),
         ("GREY", 14),
     ]);
-    assert_eq!(constants("main_pass.frag:plain"), main);
+    assert_eq!(constants("main_pass.frag"), main);
     let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8), ("LOOKUPS", 9), ("SPANS", 12)]);
     let intermediate = [&main[..1], &skipping[..]].concat();
-    assert_eq!(constants("near_neighbor.frag:fragdepth"), intermediate);
+    assert_eq!(constants("near_neighbor.frag:MARK_FRAGDEPTH"), intermediate);
     let mut fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 10)])[..]].concat();
     fused.sort_by_key(|one| one.1);
-    assert_eq!(constants("fused.frag:fragdepth"), fused);
-}
-
-/// Which fragments a driver may cull before it runs the shader stands in three execution modes.
-#[derive(Debug, PartialEq)]
-struct Depth {
-    early: bool,
-    replacing: bool,
-    less: bool,
-}
-
-fn depth(shader: &Shader) -> Depth {
-    Depth {
-        early: has(shader, "EarlyFragmentTests"),
-        replacing: has(shader, "DepthReplacing"),
-        less: has(shader, "DepthLess"),
-    }
-}
-
-const EARLY: Depth = Depth { early: true, replacing: false, less: false };
-const LATE: Depth = Depth { early: false, replacing: false, less: false };
-
-#[test]
-fn main_pass_is_culled_early_unless_it_discards() {
-    for (variant, expected) in [("plain", EARLY), ("holes", EARLY), ("discard", LATE), ("discard+holes", LATE)] {
-        assert_eq!(depth(&module(&format!("main_pass.frag:{variant}"))), expected, "{variant}");
-    }
-}
-
-#[test]
-fn passes_that_mark_promise_what_their_mark_allows() {
-    for pass in ["termination", "block_skip", "near_neighbor", "fused"] {
-        for (variant, expected) in [
-            ("copy", EARLY),
-            ("fragdepth", Depth { early: false, replacing: true, less: true }),
-            ("fragdepth-any", Depth { early: false, replacing: true, less: false }),
-        ] {
-            assert_eq!(depth(&module(&format!("{pass}.frag:{variant}"))), expected, "{pass} {variant}");
-        }
-    }
-    for (name, expected) in [
-        ("near_neighbor.frag:copy+discard", LATE),
-        ("fused.frag:copy+discard", LATE),
-        ("fused.frag:last+discard", LATE),
-        ("fused.frag:last", EARLY),
-    ] {
-        assert_eq!(depth(&module(name)), expected, "{name}");
-    }
-}
-
-/// With early tests a written depth has no effect, and a discarded fragment has been counted already.
-fn contradiction(name: &str, found: &Depth) -> Option<&'static str> {
-    if found.early && found.replacing {
-        return Some("declares early tests and writes depth");
-    }
-    if found.early && name.contains("discard") {
-        return Some("declares early tests and discards");
-    }
-    (found.less && !found.replacing).then_some("promises about a depth it does not write")
-}
-
-#[test]
-fn no_shader_contradicts_itself() {
-    for name in glsl::names() {
-        assert_eq!(contradiction(name, &depth(&module(name))), None, "{name}");
-    }
-    assert!(contradiction("a.frag:copy", &Depth { replacing: true, ..EARLY }).is_some());
-    assert!(contradiction("a.frag:discard", &EARLY).is_some());
-    assert!(contradiction("a.frag:fragdepth", &Depth { less: true, ..LATE }).is_some());
-}
-
-#[test]
-fn every_module_of_the_program_can_be_read() {
-    for name in glsl::names() {
-        let shader = module(name);
-        let stage = match name.split(':').next().and_then(|file| file.rsplit_once('.')) {
-            Some((_, "vert")) => vk::ShaderStageFlags::VERTEX,
-            Some((_, "frag")) => vk::ShaderStageFlags::FRAGMENT,
-            Some((_, "comp")) => vk::ShaderStageFlags::COMPUTE,
-            other => panic!("{name} is named {other:?}"),
-        };
-        assert_eq!(shader.stage, stage, "{name}");
-        // One binding number, one resource: passes share the numbers.
-        let mut numbers: Vec<u32> = shader.bindings.iter().map(|one| one.binding).collect();
-        numbers.dedup();
-        assert_eq!(numbers.len(), shader.bindings.len(), "{name}");
-    }
+    assert_eq!(constants("fused.frag:MARK_FRAGDEPTH"), fused);
 }
 
 #[test]

@@ -1,20 +1,36 @@
-//! Compiles every shader below `glsl/` and writes `shaders.rs`, the table that `src/glsl.rs` reads.
-//! A broken shader stops the build with the compiler's text.
+//! Writes the GLSL files into the program (`files.rs`, for `src/glsl.rs`), and compiles each once, with its plain set of
+//! defines: a broken shader stops the build with the compiler's text.
 
+// Not all of what the program does with shaders is done here.
+#[allow(dead_code)]
 #[path = "../src/glsl/compile.rs"]
 mod compile;
+#[allow(dead_code)]
+#[path = "../src/glsl/source.rs"]
+mod source;
+#[allow(dead_code)]
+#[path = "../src/glsl/takes.rs"]
+mod takes;
 
 use std::fmt::Write;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
 
+use sha2::{Digest, Sha256};
+
+use compile::{Compiled, compile};
+use source::{Broken, Source};
+use takes::Takes;
+
 const ROOT: &str = "glsl";
 
 fn main() -> ExitCode {
     println!("cargo:rustc-env=DEPTHLEAP_COMMIT={}", commit());
     println!("cargo:rerun-if-changed=tools/build.rs");
-    println!("cargo:rerun-if-changed=src/glsl/compile.rs");
+    for file in ["compile.rs", "source.rs", "takes.rs"] {
+        println!("cargo:rerun-if-changed=src/glsl/{file}");
+    }
     // A folder stands for all files in it.
     println!("cargo:rerun-if-changed={ROOT}");
     match build() {
@@ -28,50 +44,62 @@ fn main() -> ExitCode {
 
 fn build() -> Result<(), String> {
     let out = std::env::var("OUT_DIR").map_err(|error| format!("OUT_DIR: {error}; run this through cargo"))?;
-    let out = Path::new(&out);
-    let root = Path::new(ROOT);
-    let modules = compile::modules(root).map_err(|broken| broken.to_string())?;
+    let write = |name: &str, bytes: &[u8]| {
+        let path = Path::new(&out).join(name);
+        std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let source = Source::Folder(ROOT.into());
+    write("files.rs", table(&source.files().map_err(|broken| broken.to_string())?).as_bytes())?;
 
-    let results = compile_all(root, &modules);
-    let mut table = String::from("static MODULES: &[(&str, &Words<[u8]>)] = &[\n");
+    // What tells this compiler from others (`src/glsl/cache.rs`): what it is told, and what it makes of every file.
+    let mut compiler = Sha256::new_with_prefix(include_str!("../src/glsl/compile.rs"));
     let mut faults = String::new();
-    for (index, (module, result)) in modules.iter().zip(results).enumerate() {
+    let shaders = source.shaders().map_err(|broken| broken.to_string())?;
+    for (file, result) in shaders.iter().zip(compile_all(&source, &shaders)) {
         match result {
             Ok(compiled) => {
                 for line in compiled.warnings.lines() {
                     println!("cargo:warning={line}");
                 }
-                let path = out.join(format!("{index}.spv"));
-                let bytes: Vec<u8> = compiled.words.iter().flat_map(|word| word.to_ne_bytes()).collect();
-                std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))?;
-                let _ = writeln!(table, "    ({:?}, &Words(*include_bytes!({path:?}))),", module.name);
+                compiled.words.iter().for_each(|word| compiler.update(word.to_le_bytes()));
             }
-            // Variants of one file often fail alike: once is enough.
-            Err(broken) if !faults.contains(&broken.text) => {
-                let _ = writeln!(faults, "{} does not compile:\n{}", module.name, broken.text);
+            Err(broken) => {
+                let _ = writeln!(faults, "{file} does not compile:\n{}", broken.text);
             }
-            Err(_) => {}
         }
     }
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    table.push_str("];\n");
-    let path = out.join("shaders.rs");
-    std::fs::write(&path, table).map_err(|error| format!("{}: {error}", path.display()))
+    write("compiler", &compiler.finalize())?;
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// Compiles on all processors; results stand in the order of `modules`.
-fn compile_all(root: &Path, modules: &[compile::Module]) -> Vec<Result<compile::Compiled, compile::Broken>> {
-    let waiting = Mutex::new(modules.iter().enumerate());
+/// The files as an item of the program.
+fn table(files: &[String]) -> String {
+    let mut table = String::from("static FILES: &[(&str, &str)] = &[\n");
+    for file in files {
+        let path = format!("/{ROOT}/{file}");
+        let _ = writeln!(table, "    ({file:?}, include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), {path:?}))),");
+    }
+    table.push_str("];\n");
+    table
+}
+
+/// A shader with as few defines as it takes.
+fn plain(source: &Source, file: &str) -> Result<Compiled, Broken> {
+    let text = source.text(file)?;
+    compile(&text, &Takes::of(&text)?.plain())
+}
+
+/// Compiles on all processors; results stand in the order of `shaders`.
+fn compile_all(source: &Source, shaders: &[String]) -> Vec<Result<Compiled, Broken>> {
+    let waiting = Mutex::new(shaders.iter().enumerate());
     let done = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
             scope.spawn(|| {
                 loop {
                     let next = waiting.lock().ok().and_then(|mut waiting| waiting.next());
-                    let Some((index, module)) = next else { break };
-                    let result = compile::compile(root, module);
+                    let Some((index, file)) = next else { break };
+                    let result = plain(source, file);
                     if let Ok(mut done) = done.lock() {
                         done.push((index, result));
                     }

@@ -1,29 +1,8 @@
 // What a driver is asked whether it culls: a shader that is expensive, and changes what early culling must not be seen
 // to change. The rule of what it leaves behind is src/probe/rule.rs.
 #version 460
-//@variant plain
-//@variant early EARLY
-//@variant discards DISCARDS
-//@variant buffer BUFFER
-//@variant image IMAGE
-//@variant early+buffer EARLY BUFFER
-//@variant early+image EARLY IMAGE
-//@variant depth-any DEPTH=depth_any
-//@variant depth-less DEPTH=depth_less
-//@variant depth-greater DEPTH=depth_greater
-//@variant depth-unchanged DEPTH=depth_unchanged
-//@variant depth-any+buffer DEPTH=depth_any BUFFER
-//@variant depth-less+image DEPTH=depth_less IMAGE
-//@variant first+plain FIRST
-//@variant first+buffer FIRST BUFFER
-//@variant first+image FIRST IMAGE
-//@variant first+depth-any FIRST DEPTH=depth_any
-//@variant first+depth-less FIRST DEPTH=depth_less
-//@variant alive+plain ALIVE
-//@variant alive+buffer ALIVE BUFFER
-//@variant alive+image ALIVE IMAGE
-//@variant alive+depth-any ALIVE DEPTH=depth_any
-//@variant alive+depth-less ALIVE DEPTH=depth_less
+//@takes [EARLY | DISCARDS | FIRST | ALIVE], [BUFFER | IMAGE]
+//@takes [DEPTH=depth_any | DEPTH=depth_less | DEPTH=depth_greater | DEPTH=depth_unchanged]
 
 layout(push_constant) uniform Draw {
     // Fragments whose stored depth is greater stay out (mechanisms in the shader).

@@ -4,8 +4,7 @@
 // cells first, where the search for smaller ones begins. Four boxes, a word, an invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant first
-//@variant next LARGER
+//@takes [LARGER]
 
 #include "shared/slice.glsl"
 

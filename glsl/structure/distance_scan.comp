@@ -1,16 +1,14 @@
 // Distance transform along a further axis: of squared distances f within the columns, to the least of
-// max(|i - j| - 1, 0)^2 weight + f(j). One column an invocation. Twins: src/structure/distance.rs for `both`,
-// src/structure/octants.rs for one side.
+// max(|i - j| - 1, 0)^2 weight + f(j). One column an invocation. Twins: src/structure/distance.rs for both sides,
+// src/structure/octants.rs for one.
 //
 // A scan goes through the column and asks at each place which of the cells passed so far is nearest; the other half of
-// `both` is a scan from the other end. Box distance is index distance to the cells dilated by one: f'(j) is the lesser
+// both sides is a scan from the other end. Box distance is index distance to the cells dilated by one: f'(j) is the lesser
 // of f(j) and of f at the cell before. Of two candidates the later one, once it is the better, stays the better, so that
 // candidates wait in a queue: each with the place at which it overtakes the one before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant both
-//@variant one ONE_SIDED
-//@variant octant ONE_SIDED OCTANT
+//@takes [ONE_SIDED | OCTANT]
 
 #include "shared/slice.glsl"
 #include "shared/square.glsl"
@@ -113,7 +111,7 @@ void main() {
         return;
     }
     uint begin = column / slice.inner * slice.outer + column % slice.inner;
-#ifdef ONE_SIDED
+#if defined(ONE_SIDED) || defined(OCTANT)
     // Rays that go up meet what lies above: the scan comes from there.
     bool from_top = (slice.octant >> AXIS & 1u) == 0u;
     Queue queue = Queue(0u, 0u, FAR_SQUARED);

@@ -2,8 +2,7 @@
 // in the bits. One word of 32 cells an invocation. Twin: src/structure/distance.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant both
-//@variant one ONE_SIDED
+//@takes [ONE_SIDED]
 
 #include "shared/slice.glsl"
 #include "shared/square.glsl"

@@ -3,11 +3,7 @@
 // one word an invocation. Twin: src/structure/cells.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant voxels
-//@variant voxels+holes HOLES
-//@variant ranges RANGES
-//@variant nearest NEAREST
-//@variant nearest+holes NEAREST HOLES
+//@takes [RANGES | NEAREST], [HOLES]
 
 #include "shared/slice.glsl"
 

@@ -27,7 +27,6 @@ pub struct DeviceOptions {
     #[arg(long, value_name = "WAY")]
     early_end: Option<EarlyEnd>,
     /// Compile the shaders from this folder, laid out like glsl/ [default: those built in]
-    #[cfg(feature = "runtime-shaders")]
     #[arg(long, value_name = "DIR")]
     glsl: Option<std::path::PathBuf>,
 }
@@ -48,7 +47,6 @@ impl DeviceOptions {
     /// # Errors
     /// When there is no loader, layer or device that will do.
     pub fn open_unchecked(&self) -> Result<Arc<Device>> {
-        #[cfg(feature = "runtime-shaders")]
         if let Some(folder) = &self.glsl {
             crate::glsl::set_directory(folder.clone())?;
         }

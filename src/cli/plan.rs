@@ -74,7 +74,7 @@ struct StepJson<'a> {
     group: &'static str,
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
-    shader: Option<&'a str>,
+    shader: Option<String>,
     constants: &'a [Constant],
 }
 
@@ -89,10 +89,10 @@ impl<'a> StepJson<'a> {
         let names = |writes: bool| {
             step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
         };
-        let (shader, constants): (Option<&str>, &[Constant]) = match &step.work {
-            Work::Draw(draw) => (draw.shader.as_deref(), &draw.constants),
-            Work::Dispatch(dispatch) => (Some(&dispatch.shader), &[]),
-            _ => (None, &[]),
+        let shader = step.work.shader().map(|shader| shader.to_string());
+        let constants: &[Constant] = match &step.work {
+            Work::Draw(draw) => &draw.constants,
+            _ => &[],
         };
         Self { name: &step.name, group: step.group.name(), reads: names(false), writes: names(true), shader, constants }
     }

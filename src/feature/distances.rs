@@ -9,7 +9,7 @@ use crate::structure::cells::all_interesting;
 
 /// Distances to the nearest interesting cell, and their look-ups.
 pub const DISTANCES: Feature = Feature {
-    without: Some("dense"),
+    without: Some("DENSE"),
     constants,
     reads: |_| vec![Resource::NearestDistance],
     ..Feature::at(Hook::Decide, "distance structure", needed)

@@ -8,7 +8,7 @@ use crate::scene::{Scene, TransferFunction};
 
 /// Rays whose opacity comes above T end there.
 pub const EARLY_ENDS: Feature =
-    Feature { without: Some("endless"), ..Feature::at(Hook::Decide, "early ends of rays", needed) };
+    Feature { without: Some("ENDLESS"), ..Feature::at(Hook::Decide, "early ends of rays", needed) };
 
 fn needed(context: &Context) -> Result<(), Why> {
     if may_end(context) {

@@ -5,7 +5,7 @@ use crate::part::rows::{Feature, Hook};
 
 /// A mask of cells that stay transparent, since a value of theirs is missing.
 pub const HOLES: Feature = Feature {
-    with: Some("holes"),
+    with: Some("HOLES"),
     reads: |_| vec![Resource::Holes],
     ..Feature::at(Hook::Sample, "hole mask", |context| match context.scene.field.holes {
         Some(_) => Ok(()),

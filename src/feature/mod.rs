@@ -72,8 +72,7 @@ pub fn reads(context: &Context, hook: Hook) -> Vec<Access> {
     there.flat_map(|feature| (feature.reads)(context)).map(|resource| Usage::Sampled.of(resource)).collect()
 }
 
-/// The words that name the variant of a shader with a hook, in table order.
-pub fn words(context: &Context, hook: Hook) -> Vec<&'static str> {
-    let word = |feature: &'static Feature| if context.has(feature) { feature.with } else { feature.without };
-    at(hook).filter_map(word).collect()
+/// The defines of a shader with a hook.
+pub fn defines(context: &Context, hook: Hook) -> Vec<&'static str> {
+    at(hook).filter_map(|feature| feature.define(context)).collect()
 }

@@ -5,7 +5,7 @@ use crate::part::rows::{Feature, Hook};
 
 /// A table of what the transfer function gives between two values, and its axes.
 pub const PREINTEGRATION: Feature = Feature {
-    with: Some("preintegrated"),
+    with: Some("PREINTEGRATED"),
     reads: |_| vec![Resource::Preintegrated, Resource::Axis],
     ..Feature::at(Hook::Sample, "pre-integrated table", |context| match context.scene.settings.sampling.spans() {
         true => Ok(()),

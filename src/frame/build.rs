@@ -71,6 +71,7 @@ impl Job {
         pipelines: &mut Pipelines,
         given: &dyn Fn(Resource) -> Option<Given<'a>>,
     ) -> Result<Self> {
+        pipelines.prepare(steps)?;
         let mut recorder = Recorder { device, name, commands: None, cells: 0, slices: Vec::new() };
         let sampler = Sampler::new(device, "nearest", false)?;
         let timed = device.compute.timestamp_valid_bits > 0 && device.info.timestamp_valid_bits > 0;

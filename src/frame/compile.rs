@@ -91,6 +91,7 @@ pub fn target_format(resource: Resource, formats: Formats) -> vk::Format {
 /// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
 pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut Resident) -> Result<Compiled> {
     let steps: Vec<Step> = plan.steps.iter().filter(|s| s.group != Group::Structure).cloned().collect();
+    resident.pipelines.prepare(&steps)?;
     let formats = scene.settings.formats();
     let scheduled = schedule(&steps, |r| target_format(r, formats));
     let mut compiler = Compiler {

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::glsl;
-use crate::part::{Constant, DepthTest};
+use crate::part::{Constant, DepthTest, Step};
 use crate::vulkan::{
     Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
     Shader,
@@ -18,7 +18,7 @@ use crate::vulkan::{
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct PipelineKey {
     pub render_pass: RenderPassInfo,
-    pub shader: Option<Arc<str>>,
+    pub shader: Option<Arc<glsl::Shader>>,
     pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
     pub blend: bool,
@@ -27,14 +27,14 @@ pub struct PipelineKey {
 /// Made when first asked for.
 pub struct Pipelines {
     device: Arc<Device>,
-    shaders: HashMap<String, Arc<Shader>>,
+    shaders: HashMap<glsl::Shader, Arc<Shader>>,
     render_passes: HashMap<RenderPassInfo, Arc<RenderPass>>,
     pipelines: HashMap<PipelineKey, Arc<GraphicsPipeline>>,
     compute: HashMap<ComputeKey, Arc<ComputePipeline>>,
 }
 
 /// Shader and specialization constants.
-type ComputeKey = (String, Vec<(&'static str, u32)>);
+type ComputeKey = (Arc<glsl::Shader>, Vec<Constant>);
 
 impl Pipelines {
     pub fn new(device: &Arc<Device>) -> Self {
@@ -67,11 +67,12 @@ impl Pipelines {
             return Ok(known.clone());
         }
         let render_pass = self.render_pass(&key.render_pass)?;
-        let vertex = self.shader("box.vert")?;
-        let fragment = key.shader.as_deref().map(|name| self.shader(name)).transpose()?;
-        // Constants that a variant has no use for are gone from its SPIR-V.
-        let known = |name: &str| fragment.iter().any(|f| f.spec_constants.iter().any(|(n, _)| n == name));
-        let constants: Vec<(&str, u32)> = key.constants.iter().copied().filter(|(name, _)| known(name)).collect();
+        let vertex = self.shader(&vertex())?;
+        let fragment = key.shader.as_deref().map(|shader| self.shader(shader)).transpose()?;
+        let constants = match (&key.shader, &fragment) {
+            (Some(shader), Some(fragment)) => present(shader, fragment, &key.constants)?,
+            _ => Vec::new(),
+        };
         let made = Arc::new(GraphicsPipeline::new(
             &self.device,
             &GraphicsPipelineInfo {
@@ -101,29 +102,58 @@ impl Pipelines {
     /// As [`Pipelines::pipeline`].
     pub fn compute(
         &mut self,
-        shader: &str,
-        constants: &[(&'static str, u32)],
+        shader: &Arc<glsl::Shader>,
+        constants: &[Constant],
         name: &str,
     ) -> Result<Arc<ComputePipeline>> {
-        let key = (shader.to_owned(), constants.to_vec());
+        let key = (shader.clone(), constants.to_vec());
         if let Some(known) = self.compute.get(&key) {
             return Ok(known.clone());
         }
         let module = self.shader(shader)?;
-        // As above.
-        let known = |name: &str| module.spec_constants.iter().any(|(n, _)| n == name);
-        let constants: Vec<(&str, u32)> = constants.iter().copied().filter(|(name, _)| known(name)).collect();
+        let constants = present(shader, &module, constants)?;
         let made = Arc::new(ComputePipeline::new(&self.device, name, &module, &constants)?);
         self.compute.insert(key, made.clone());
         Ok(made)
     }
 
-    fn shader(&mut self, name: &str) -> Result<Arc<Shader>> {
-        if let Some(known) = self.shaders.get(name) {
+    /// Compiles the shaders of these steps that are not here yet, side by side.
+    ///
+    /// # Errors
+    /// A shader that does not compile.
+    pub fn prepare<'a>(&self, steps: impl IntoIterator<Item = &'a Step>) -> Result<()> {
+        let vertex = vertex();
+        let shaders = steps.into_iter().filter_map(|step| step.work.shader().map(Arc::as_ref)).chain([&vertex]);
+        glsl::prepare(shaders.filter(|shader| !self.shaders.contains_key(shader)))
+    }
+
+    fn shader(&mut self, shader: &glsl::Shader) -> Result<Arc<Shader>> {
+        if let Some(known) = self.shaders.get(shader) {
             return Ok(known.clone());
         }
-        let made = Arc::new(Shader::new(name, &glsl::module(name)?)?);
-        self.shaders.insert(name.to_owned(), made.clone());
+        let made = Arc::new(Shader::new(&shader.to_string(), &glsl::module(shader)?)?);
+        self.shaders.insert(shader.clone(), made.clone());
         Ok(made)
     }
+}
+
+fn vertex() -> glsl::Shader {
+    glsl::Shader::new("box.vert", [])
+}
+
+/// The constants that a module has. Those it has no use for are gone from its SPIR-V; one that its file declares for no
+/// set of defines is misspelt.
+fn present(shader: &glsl::Shader, module: &Shader, constants: &[Constant]) -> Result<Vec<Constant>> {
+    let has = |name: &str| module.spec_constants.iter().any(|(n, _)| n == name);
+    let (present, absent): (Vec<Constant>, Vec<Constant>) = constants.iter().partition(|(name, _)| has(name));
+    for (name, _) in absent {
+        if !glsl::declares(shader.file, name)? {
+            return Err(Error::input(
+                format!("shader {}", shader.file),
+                format!("declares no specialization constant {name}"),
+                format!("declare it as `layout(constant_id = ...) const ... {name}`, which the program sets"),
+            ));
+        }
+    }
+    Ok(present)
 }

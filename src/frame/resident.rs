@@ -162,9 +162,12 @@ impl Resident {
         let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) else { return Ok(()) };
         match structures.distance(&lookup) {
             Some(built) => self.take(&lookup, built),
-            None => self.with_source(scene, |distances, device, pipelines, source| {
-                distances.build(device, pipelines, source, &lookup)
-            }),
+            None => {
+                self.pipelines.prepare(&plan.steps)?;
+                self.with_source(scene, |distances, device, pipelines, source| {
+                    distances.build(device, pipelines, source, &lookup)
+                })
+            }
         }
     }
 

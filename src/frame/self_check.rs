@@ -11,13 +11,15 @@ use super::resident::Resident;
 use super::structures::Structures;
 use super::texture_unit;
 use crate::error::Result;
+use crate::glsl;
 use crate::method;
+use crate::part::Group;
 use crate::part::form::Form;
 use crate::part::rows::Method;
 use crate::plan;
 use crate::probe::correct::{Depth, faults};
 use crate::probe::run::missing;
-use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure};
+use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure, rig};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
@@ -99,6 +101,7 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
     let mut found: BTreeMap<Form, Verdict> = BTreeMap::new();
     // The scenes differ in their view only.
     let mut resident = Resident::new(device);
+    compile(device, &scenes[0], &resident)?;
     let mut rig = Rig::new(device, vk::Format::D32_SFLOAT, PROBED)?;
     let statistics = measure::statistics(&mut rig)?;
     for form in forms() {
@@ -131,6 +134,17 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
     }
     let unit = texture_unit::measure(device, &mut resident.pipelines)?;
     Ok(SelfCheck { forms: found, statistics, unit })
+}
+
+/// Compiles what the check draws with, side by side: for the forms whose features the device has, in a scene of it.
+fn compile(device: &Device, scene: &Scene, resident: &Resident) -> Result<()> {
+    let possible = |form: &Form| cases(*form).iter().all(|case| missing(device, case).is_none());
+    let forms: Vec<Form> = forms().into_iter().filter(possible).collect();
+    let asked: Vec<Case> = forms.iter().flat_map(|form| cases(*form)).collect();
+    glsl::prepare(rig::shaders(&asked).iter().chain([&texture_unit::shader()]))?;
+    let plans = forms.iter().map(|form| plan::plan(scene, Some(*form))).collect::<Result<Vec<_>>>()?;
+    let drawn = plans.iter().flat_map(|plan| &plan.steps).filter(|step| step.group != Group::Structure);
+    resident.pipelines.prepare(drawn)
 }
 
 /// A small scene with empty space, seen through many main passes.

@@ -10,6 +10,7 @@ use super::pipelines::Pipelines;
 use super::texture::texel_format;
 use super::upload;
 use crate::error::Result;
+use crate::glsl;
 use crate::math::interpolate::trilinear;
 use crate::scene::TextureUnit;
 use crate::scene::texture::{FilterError, TexelFormat};
@@ -118,7 +119,7 @@ fn interpolated(
     let from = buffer("places", size_of_val(places), Place::Upload)?;
     from.write(0, bytemuck::cast_slice(places))?;
     let to = buffer("found", size_of::<f32>() * places.len(), Place::Readback)?;
-    let pipeline = pipelines.compute("texture_unit.comp", &[], NAME)?;
+    let pipeline = pipelines.compute(&Arc::new(shader()), &[], NAME)?;
     let sampler = Sampler::new(device, "trilinear", true)?;
     let bound = [
         ("volume", Bound::Sampled(&image, &sampler, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)),
@@ -131,6 +132,11 @@ fn interpolated(
     commands.dispatch([places.len() as u32 / GROUP, 1, 1]);
     device.graphics.submit(&commands.finish()?, &[])?.wait()?;
     Ok(bytemuck::pod_collect_to_vec(&to.read()?))
+}
+
+/// What measures.
+pub fn shader() -> glsl::Shader {
+    glsl::Shader::new("texture_unit.comp", [])
 }
 
 /// Numbers that are the same in every run (splitmix64).

@@ -32,9 +32,4 @@ impl Form {
             Mark::Copy => "copy",
         }
     }
-
-    /// The macros' variant of an intermediate shader for this way of marking.
-    pub fn mark_variant(self) -> &'static str {
-        self.mark_name()
-    }
 }

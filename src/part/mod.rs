@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use crate::glsl::Shader;
 use crate::reference::TwinPass;
 use crate::shared::Slice;
 use resource::{Access, Resource};
@@ -90,14 +91,24 @@ pub enum Work {
     },
 }
 
+impl Work {
+    /// What is compiled for it; none where nothing is drawn or computed, or the vertex shader does.
+    pub fn shader(&self) -> Option<&Arc<Shader>> {
+        match self {
+            Self::Draw(draw) => draw.shader.as_ref(),
+            Self::Dispatch(dispatch) => Some(&dispatch.shader),
+            Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } => None,
+        }
+    }
+}
+
 /// A specialization constant: its name and its value, a number of any type as its 32 bits.
 pub type Constant = (&'static str, u32);
 
 /// A compute step of a structure's build, run in slices.
 #[derive(Clone, Debug)]
 pub struct Dispatch {
-    /// Compute shader, with its variant.
-    pub shader: String,
+    pub shader: Arc<Shader>,
     /// Specialization constants, by name.
     pub constants: Vec<Constant>,
     /// What is bound, by the names in the shader.
@@ -117,8 +128,8 @@ pub struct Draw {
     /// The greatest stored depth with which a fragment takes part, where the step is culled.
     pub bound: f32,
     pub test: DepthTest,
-    /// Fragment shader, with its variant; none where only the count matters.
-    pub shader: Option<Arc<str>>,
+    /// The fragment shader; none where only the count matters.
+    pub shader: Option<Arc<Shader>>,
     /// Specialization constants, by name.
     pub constants: Arc<Vec<Constant>>,
     /// Put under what is there [KW03 §1.1], rather than replacing it.
@@ -149,17 +160,24 @@ impl DepthTest {
 }
 
 impl Draw {
-    /// A step that draws `faces` with a shader and no depth.
-    pub fn plain(faces: Faces, shader: &str, twin: TwinPass) -> Self {
+    /// A step that draws `faces` with the fragment shader in `file` and no depth.
+    pub fn plain(faces: Faces, file: &'static str, twin: TwinPass) -> Self {
         Self {
             faces,
             depth: 1.0,
             bound: 1.0,
             test: DepthTest::NONE,
-            shader: Some(shader.into()),
+            shader: Some(Arc::new(Shader::new(file, []))),
             constants: Arc::default(),
             blend: false,
             twin: Some(twin),
+        }
+    }
+
+    /// Adds defines to the shader's.
+    pub fn define(&mut self, defines: impl IntoIterator<Item = &'static str>) {
+        if let Some(shader) = &mut self.shader {
+            Arc::make_mut(shader).defines.extend(defines);
         }
     }
 

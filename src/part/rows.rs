@@ -151,9 +151,9 @@ pub struct Feature {
     pub needed: fn(&Context) -> Result<(), Why>,
     /// Where in a shader it works.
     pub at: Hook,
-    /// The word in the variant's name of shaders that have it.
+    /// The define of shaders that have it.
     pub with: Option<&'static str>,
-    /// The word in the variant's name of shaders that lack it.
+    /// The define of shaders that lack it.
     pub without: Option<&'static str>,
     /// Specialization constants, whether the frame has it or not.
     pub constants: fn(&Context) -> Vec<Constant>,
@@ -173,6 +173,11 @@ impl Feature {
             constants: |_| Vec::new(),
             reads: |_| Vec::new(),
         }
+    }
+
+    /// The define that this feature asks for of a shader at its hook.
+    pub fn define(&self, context: &Context) -> Option<&'static str> {
+        if context.has(self) { self.with } else { self.without }
     }
 
     /// A feature of shaders at a hook.

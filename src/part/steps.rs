@@ -6,15 +6,16 @@ use std::sync::Arc;
 
 use super::resource::Access;
 use super::{Constant, Step, Work};
+use crate::glsl::Shader;
 
 /// Steps in order. Those of thousands of passes hardly differ, so they hold one list of accesses, one of constants and one
-/// shader's name together.
+/// shader together.
 #[derive(Default)]
 pub struct Steps {
     list: Vec<Step>,
     accesses: HashSet<Arc<Vec<Access>>>,
     constants: HashSet<Arc<Vec<Constant>>>,
-    shaders: HashSet<Arc<str>>,
+    shaders: HashSet<Arc<Shader>>,
 }
 
 impl Steps {
@@ -47,7 +48,7 @@ impl Steps {
 }
 
 /// Takes what was seen before in place of its equal.
-fn share<T: ?Sized + Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>) {
+fn share<T: Hash + Eq>(seen: &mut HashSet<Arc<T>>, of_step: &mut Arc<T>) {
     match seen.get(of_step) {
         Some(before) => *of_step = before.clone(),
         None => {

@@ -20,9 +20,8 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     ];
     accesses.extend(feature::reads(context, Hook::Decide));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
-    let endless = if context.has(&EARLY_ENDS) { "" } else { "+endless" };
-    let shader = format!("block_skip.frag:{}{endless}", form.mark_variant());
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::block_skip::block_skip);
+    let mut draw = Draw::plain(Faces::Front, "block_skip.frag", reference::block_skip::block_skip);
+    draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Decide));

@@ -23,7 +23,10 @@ pub fn cull_by_stored(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, b
             draw.test = DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false };
             accesses.push(Usage::DepthTest.of(Resource::Stored));
         }
-        Cull::Discard => accesses.push(Usage::Sampled.of(Resource::Stored)),
+        Cull::Discard => {
+            draw.define(["CULL_DISCARD"]);
+            accesses.push(Usage::Sampled.of(Resource::Stored));
+        }
     }
 }
 
@@ -38,6 +41,11 @@ pub fn rising(mark: Mark) -> vk::CompareOp {
 /// Lets a step write its marks: into the depth buffer, or into a colour attachment that is copied there.
 /// `compare` is the depth test of the written depth against the stored one, where it is written directly.
 pub fn mark_into(draw: &mut Draw, accesses: &mut Vec<Access>, mark: Mark, compare: vk::CompareOp) {
+    draw.define([match mark {
+        Mark::Copy => "MARK_COPY",
+        Mark::Fragdepth | Mark::Auto => "MARK_FRAGDEPTH",
+        Mark::FragdepthAny => "MARK_FRAGDEPTH_ANY",
+    }]);
     if mark == Mark::Copy {
         accesses.push(Usage::Color.of(Resource::Marks));
         return;

@@ -8,7 +8,6 @@ use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
 use crate::reference::section::section_end;
-use crate::scene::settings::Cull;
 
 /// Main pass `pass`, for rays whose stored section begins at or before it. The last one has nothing left to decide and marks
 /// nothing.
@@ -26,15 +25,10 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     // Its own opacity is read where a ray may end.
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(Resource::Accumulated));
-    let marks = (pass + 1 < context.passes).then_some(form.mark);
-    let mut words = vec![marks.map_or("last", |_| form.mark_variant())];
-    if form.cull == Cull::Discard {
-        words.push("discard");
-    }
     accesses.extend(feature::reads(context, Hook::Sample));
-    words.extend(feature::words(context, Hook::Sample));
-    words.extend(feature::words(context, Hook::Decide));
-    let mut draw = Draw::plain(Faces::Front, &format!("fused.frag:{}", words.join("+")), reference::fused::fused);
+    let mut draw = Draw::plain(Faces::Front, "fused.frag", reference::fused::fused);
+    draw.define(feature::defines(context, Hook::Sample));
+    draw.define(feature::defines(context, Hook::Decide));
     draw.blend = true;
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
@@ -43,8 +37,10 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
-    if let Some(mark) = marks {
-        cull::mark_into(&mut draw, &mut accesses, mark, cull::rising(mark));
+    if pass + 1 < context.passes {
+        cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
+    } else {
+        draw.define(["MARK_NONE"]);
     }
     Step::drawn(format!("fused #{pass}"), Group::Main, pass, accesses, draw)
 }

@@ -19,10 +19,8 @@ pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
         Usage::Color.of(Resource::Accumulated),
     ];
     accesses.extend(feature::reads(context, Hook::Sample));
-    let discard = matches!(culled, Some((Cull::Discard, _))).then_some("discard");
-    let words: Vec<&str> = discard.into_iter().chain(feature::words(context, Hook::Sample)).collect();
-    let variant = if words.is_empty() { "plain".to_owned() } else { words.join("+") };
-    let mut draw = Draw::plain(Faces::Front, &format!("main_pass.frag:{variant}"), reference::main_pass::main_pass);
+    let mut draw = Draw::plain(Faces::Front, "main_pass.frag", reference::main_pass::main_pass);
+    draw.define(feature::defines(context, Hook::Sample));
     draw.blend = true;
     draw.specialize([constants::samples(context.scene)]);
     draw.specialize(feature::constants(context, Hook::Sample));

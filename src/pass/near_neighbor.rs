@@ -8,7 +8,7 @@ use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
 use crate::reference;
 use crate::reference::section::section_end;
-use crate::scene::settings::{Cull, Mark};
+use crate::scene::settings::Mark;
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
@@ -22,13 +22,8 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
-    let mut words = match form.mark {
-        Mark::Copy if culled && form.cull == Cull::Discard => vec!["copy", "discard"],
-        _ => vec![form.mark_variant()],
-    };
-    words.extend(feature::words(context, Hook::Decide));
-    let shader = format!("near_neighbor.frag:{}", words.join("+"));
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::near_neighbor::near_neighbor);
+    let mut draw = Draw::plain(Faces::Front, "near_neighbor.frag", reference::near_neighbor::near_neighbor);
+    draw.define(feature::defines(context, Hook::Decide));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Decide));

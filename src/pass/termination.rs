@@ -18,8 +18,7 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::Accumulated),
     ];
-    let shader = format!("termination.frag:{}", form.mark_variant());
-    let mut draw = Draw::plain(Faces::Front, &shader, reference::termination::termination);
+    let mut draw = Draw::plain(Faces::Front, "termination.frag", reference::termination::termination);
     draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)

@@ -4,6 +4,8 @@
 use ash::vk;
 use serde::{Deserialize, Serialize};
 
+use crate::glsl;
+
 /// What rejects fragments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -156,23 +158,17 @@ impl Shader {
         }
     }
 
-    /// Its variant in `glsl/probe/probe.frag`.
-    pub fn variant(self) -> &'static str {
-        match self {
-            Self::Plain => "plain",
-            Self::Early => "early",
-            Self::Discards => "discards",
-            Self::Buffer => "buffer",
-            Self::Image => "image",
-            Self::EarlyBuffer => "early+buffer",
-            Self::EarlyImage => "early+image",
-            Self::DepthAny => "depth-any",
-            Self::DepthLess => "depth-less",
-            Self::DepthGreater => "depth-greater",
-            Self::DepthUnchanged => "depth-unchanged",
-            Self::DepthAnyBuffer => "depth-any+buffer",
-            Self::DepthLessImage => "depth-less+image",
-        }
+    /// What makes it of `glsl/probe/probe.frag`.
+    fn defines(self) -> impl Iterator<Item = &'static str> {
+        let depth = self.conservative().map(|promise| match promise {
+            Conservative::Any => "DEPTH=depth_any",
+            Conservative::Less => "DEPTH=depth_less",
+            Conservative::Greater => "DEPTH=depth_greater",
+            Conservative::Unchanged => "DEPTH=depth_unchanged",
+        });
+        let (early, discards) = (self.early().then_some("EARLY"), (self == Self::Discards).then_some("DISCARDS"));
+        let (buffer, image) = (self.counts().then_some("BUFFER"), self.touches().then_some("IMAGE"));
+        [depth, early, discards, buffer, image].into_iter().flatten()
     }
 
     pub fn early(self) -> bool {
@@ -269,14 +265,14 @@ impl Case {
         all
     }
 
-    /// The module of its fragment shader.
-    pub fn module(&self) -> String {
-        let look = match self.mechanism {
-            Mechanism::DiscardFirst => "first+",
-            Mechanism::Alive => "alive+",
-            _ => "",
+    /// Its fragment shader.
+    pub fn fragment(&self) -> glsl::Shader {
+        let looks = match self.mechanism {
+            Mechanism::DiscardFirst => Some("FIRST"),
+            Mechanism::Alive => Some("ALIVE"),
+            _ => None,
         };
-        format!("probe/probe.frag:{look}{}", self.shader.variant())
+        glsl::Shader::new("probe/probe.frag", self.shader.defines().chain(looks))
     }
 
     /// The shader's line in words, the compare named where it matters.

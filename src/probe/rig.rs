@@ -158,7 +158,7 @@ impl Rig {
             occlusion: query(Kind::Occlusion, 1)?,
             statistics: has_statistics.then(|| query(Kind::Statistics, 1)).transpose()?,
             timestamps: has_time.then(|| query(Kind::Timestamp, 2)).transpose()?,
-            vertex: Shader::new("probe/probe.vert", &glsl::module("probe/probe.vert")?)?,
+            vertex: compiled(&vertex())?,
             pipelines: Arc::default(),
         })
     }
@@ -342,19 +342,25 @@ impl Rig {
                     compare: if mechanism.compares() { case.compare.op() } else { vk::CompareOp::ALWAYS },
                     bounds: mechanism.bounds(),
                 };
-                self.make(&case.name(), &case.module(), depth, stencil)?
+                self.make(&case.name(), &case.fragment(), depth, stencil)?
             }
             None => {
                 let depth = DepthState { test: true, write: true, ..DepthState::OFF };
-                self.make("probe fill", "probe/fill.frag", depth, None)?
+                self.make("probe fill", &fill(), depth, None)?
             }
         };
         pipelines.insert(case.copied(), made.clone());
         Ok(made)
     }
 
-    fn make(&self, name: &str, module: &str, depth: DepthState, stencil: Option<u8>) -> Result<Arc<GraphicsPipeline>> {
-        let fragment = Shader::new(module, &glsl::module(module)?)?;
+    fn make(
+        &self,
+        name: &str,
+        fragment: &glsl::Shader,
+        depth: DepthState,
+        stencil: Option<u8>,
+    ) -> Result<Arc<GraphicsPipeline>> {
+        let fragment = compiled(fragment)?;
         let info = GraphicsPipelineInfo {
             name,
             vertex: &self.vertex,
@@ -368,6 +374,24 @@ impl Rig {
         };
         Ok(Arc::new(GraphicsPipeline::new(&self.device, &info)?))
     }
+}
+
+fn vertex() -> glsl::Shader {
+    glsl::Shader::new("probe/probe.vert", [])
+}
+
+/// What writes depths before a case is drawn.
+fn fill() -> glsl::Shader {
+    glsl::Shader::new("probe/fill.frag", [])
+}
+
+/// Everything that drawing these cases compiles.
+pub fn shaders(cases: &[Case]) -> Vec<glsl::Shader> {
+    cases.iter().map(Case::fragment).chain([vertex(), fill()]).collect()
+}
+
+fn compiled(shader: &glsl::Shader) -> Result<Shader> {
+    Shader::new(&shader.to_string(), &glsl::module(shader)?)
 }
 
 fn render_pass(format: vk::Format, load: vk::AttachmentLoadOp) -> RenderPassInfo {

@@ -8,8 +8,9 @@ use super::decide::Culling;
 use super::marks::{MarkCost, mark_cost};
 use super::measure::{How, ProbeClock, cost, rejection_rate, statistics, work};
 use super::record::{Correct, Line, Other};
-use super::rig::Rig;
+use super::rig::{Rig, shaders};
 use crate::error::{Error, Result};
+use crate::glsl;
 use crate::vulkan::{Device, has_stencil, vk};
 
 /// Pixels of a side of the picture that is checked.
@@ -50,6 +51,8 @@ pub fn missing(device: &Device, case: &Case) -> Option<String> {
 /// # Errors
 /// What the driver reports.
 pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Found> {
+    let cases: Vec<Case> = Case::all().into_iter().filter(|case| missing(device, case).is_none()).collect();
+    glsl::prepare(&shaders(&cases))?;
     let clock = ProbeClock::of(&device.info);
     let rate_side = if device.info.is_cpu() { TIMED } else { 4 * TIMED };
     let mut benches = Vec::new();

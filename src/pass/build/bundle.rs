@@ -1,6 +1,7 @@
 //! Distances along bundles of rays: `optimal` and `cone` [Thesis §5.3.1, §5.7].
 
 use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
+use crate::glsl::Shader;
 use crate::part::Step;
 use crate::part::resource::Resource;
 use crate::shared::Slice;
@@ -13,7 +14,7 @@ pub fn widen(grid: &Grid) -> Vec<Step> {
         let mut slice = slice(grid, words_of_bits(grid));
         slice.reach = by;
         let (reads, writes) = ([("narrow", from)], [("wide", to)]);
-        dispatch(to.name().to_owned(), "structure/widen.comp", &reads, &writes, slice, 32)
+        dispatch(to.name().to_owned(), Shader::new("structure/widen.comp", []), &reads, &writes, slice, 32)
     };
     vec![widen(Resource::Interesting, Resource::Wide2, 1), widen(Resource::Wide2, Resource::Wide4, 2)]
 }
@@ -31,7 +32,7 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
             ("wide_4", Resource::Wide4),
         ];
         reads.extend(larger.map(|larger| ("larger", larger)));
-        let shader = if larger.is_none() { "structure/bundle.comp:first" } else { "structure/bundle.comp:next" };
+        let shader = Shader::new("structure/bundle.comp", larger.map(|_| "LARGER"));
         let boxes = grid.cells.map(|n| n.div_ceil(scale));
         let slice = Slice { cell: scale as u32, ..slice(grid, words_of_bytes(boxes)) };
         // Some dozen steps along a ray for each of four boxes.

@@ -1,26 +1,27 @@
 //! Exact Euclidean distance transforms, axis by axis [Thesis §5.3.1]: in any direction, or for each octant.
 
 use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
+use crate::glsl::Shader;
 use crate::part::resource::Resource;
 use crate::part::{Step, Work};
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
 use crate::structure::square::{reach, weight};
 
-const SHADER_X: &str = "structure/distance_x.comp";
-const SHADER_SCAN: &str = "structure/distance_scan.comp";
+/// The define of scans for octants, in shaders of one axis.
+const ONE_SIDED: Option<&str> = Some("ONE_SIDED");
 
 /// `omni`: from the interesting cells to the texture `to`.
 pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
     // Each column is read before it is written, so one buffer does.
     let squares = Resource::Squares;
     vec![
-        first_axis(grid, "distance_x".to_owned(), "both", squares, 0),
-        scan(grid, "distance_y".to_owned(), "both", 1, [squares, squares], 0),
-        scan(grid, "distance_z".to_owned(), "both", 2, [squares, squares], 0),
+        first_axis(grid, "distance_x".to_owned(), None, squares, 0),
+        scan(grid, "distance_y".to_owned(), None, 1, [squares, squares], 0),
+        scan(grid, "distance_z".to_owned(), None, 2, [squares, squares], 0),
         dispatch(
             "distance_pack".to_owned(),
-            "structure/distance_pack.comp",
+            Shader::new("structure/distance_pack.comp", []),
             &[("interesting", Resource::Interesting), ("squares", squares)],
             &[("distance_bytes", Resource::DistanceBytes)],
             slice(grid, words_of_bytes(grid.cells)),
@@ -35,13 +36,13 @@ pub fn directional(grid: &Grid) -> Vec<Step> {
     let mut steps = Vec::new();
     let name = |axis: &str, octant: usize| format!("distance_{axis}.{octant}");
     for x in 0..2 {
-        steps.push(first_axis(grid, name("x", x), "one", Resource::Squares, x));
+        steps.push(first_axis(grid, name("x", x), ONE_SIDED, Resource::Squares, x));
         for xy in [x, x | 2] {
             let through = [Resource::Squares, Resource::SquaresAfter];
-            steps.push(scan(grid, name("y", xy), "one", 1, through, xy));
+            steps.push(scan(grid, name("y", xy), ONE_SIDED, 1, through, xy));
             for octant in [xy, xy | 4] {
                 let through = [Resource::SquaresAfter, Resource::DistanceBytes];
-                steps.push(scan(grid, name("z", octant), "octant", 2, through, octant));
+                steps.push(scan(grid, name("z", octant), Some("OCTANT"), 2, through, octant));
             }
         }
     }
@@ -54,10 +55,10 @@ fn along(grid: &Grid, axis: usize, count: usize, octant: usize) -> Slice {
     Slice { weight, reach: reach(weight), octant: octant as u32, ..slice(grid, count) }
 }
 
-fn first_axis(grid: &Grid, name: String, variant: &str, squares: Resource, octant: usize) -> Step {
+fn first_axis(grid: &Grid, name: String, define: Option<&'static str>, squares: Resource, octant: usize) -> Step {
     dispatch(
         name,
-        &format!("{SHADER_X}:{variant}"),
+        Shader::new("structure/distance_x.comp", define),
         &[("interesting", Resource::Interesting)],
         &[("squares", squares)],
         along(grid, 0, words_of_bits(grid), octant),
@@ -66,7 +67,14 @@ fn first_axis(grid: &Grid, name: String, variant: &str, squares: Resource, octan
 }
 
 /// Along axis 1 or 2, from the first of `through` to the second.
-fn scan(grid: &Grid, name: String, variant: &str, axis: usize, through: [Resource; 2], octant: usize) -> Step {
+fn scan(
+    grid: &Grid,
+    name: String,
+    define: Option<&'static str>,
+    axis: usize,
+    through: [Resource; 2],
+    octant: usize,
+) -> Step {
     let [nx, ny, nz] = grid.cells;
     let (columns, inner, outer, stride) =
         if axis == 1 { (nx * nz, nx, nx * ny, nx) } else { (nx * ny, nx * ny, 0, nx * ny) };
@@ -78,8 +86,8 @@ fn scan(grid: &Grid, name: String, variant: &str, axis: usize, through: [Resourc
         reads.push(("interesting", Resource::Interesting));
         writes = "distance_bytes";
     }
-    let shader = format!("{SHADER_SCAN}:{variant}");
-    let mut step = dispatch(name, &shader, &reads, &[(writes, to)], slice, grid.cells[axis]);
+    let shader = Shader::new("structure/distance_scan.comp", define);
+    let mut step = dispatch(name, shader, &reads, &[(writes, to)], slice, grid.cells[axis]);
     if let Work::Dispatch(dispatch) = &mut step.work {
         dispatch.constants = vec![("LENGTH", grid.cells[axis] as u32), ("AXIS", axis as u32)];
     }

@@ -1,6 +1,7 @@
 //! Which cells are interesting: a bit for each, from the volume or from the ranges of larger cells.
 
 use super::{dispatch, slice, words_of_bits};
+use crate::glsl::Shader;
 use crate::part::Step;
 use crate::part::resource::Resource;
 use crate::structure::Lookup;
@@ -11,15 +12,14 @@ use crate::structure::grid::Grid;
 pub fn interesting(grid: &Grid, holes: bool, lookup: &Lookup) -> Step {
     let nearest = lookup.nearest;
     let holes = holes && grid.cell == 1;
-    let shader = match (nearest, holes) {
-        (false, _) if grid.cell > 1 => "structure/interesting.comp:ranges",
-        (false, false) => "structure/interesting.comp:voxels",
-        (false, true) => "structure/interesting.comp:voxels+holes",
-        (true, false) => "structure/interesting.comp:nearest",
-        (true, true) => "structure/interesting.comp:nearest+holes",
-    };
+    let mut shader = Shader::new("structure/interesting.comp", []);
+    shader.defines.extend(nearest.then_some("NEAREST"));
+    shader.defines.extend(holes.then_some("HOLES"));
     let mut reads = match lookup.reads_ranges() {
-        true => vec![("cell_range", Resource::CellRange)],
+        true => {
+            shader.defines.insert("RANGES");
+            vec![("cell_range", Resource::CellRange)]
+        }
         false => vec![("volume", Resource::Volume)],
     };
     reads.extend(holes.then_some(("holes", Resource::Holes)));

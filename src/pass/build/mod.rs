@@ -13,6 +13,9 @@ pub use distance::{directional, omni};
 use interesting::interesting;
 pub use range::cell_range;
 
+use std::sync::Arc;
+
+use crate::glsl::Shader;
 use crate::part::resource::{Access, Resource, Usage};
 use crate::part::{Dispatch, Group, Step, Work};
 use crate::scene::Field;
@@ -78,7 +81,7 @@ pub fn bytes(grid: &Grid, octants: usize, resource: Resource) -> u64 {
 /// A dispatch that reads and writes these, bound under their own names or those given.
 fn dispatch(
     name: String,
-    shader: &str,
+    shader: Shader,
     reads: &[(&'static str, Resource)],
     writes: &[(&'static str, Resource)],
     slice: Slice,
@@ -88,7 +91,7 @@ fn dispatch(
     let mut accesses: Vec<Access> = reads.iter().map(used(Usage::ComputeRead)).collect();
     accesses.extend(writes.iter().map(used(Usage::ComputeWrite)));
     let work = Work::Dispatch(Dispatch {
-        shader: shader.to_owned(),
+        shader: Arc::new(shader),
         constants: Vec::new(),
         bound: [reads, writes].concat(),
         slice,

@@ -1,6 +1,7 @@
 //! Value range of every cell of a grid; with a side of 8, of the blocks of [KW03 §2.3]. Depends on the volume alone.
 
 use super::{dispatch, slice};
+use crate::glsl::Shader;
 use crate::part::Step;
 use crate::part::resource::Resource;
 use crate::structure::grid::Grid;
@@ -8,7 +9,7 @@ use crate::structure::grid::Grid;
 pub fn cell_range(grid: &Grid) -> Step {
     dispatch(
         "cell_range".to_owned(),
-        "structure/cell_range.comp",
+        Shader::new("structure/cell_range.comp", []),
         &[("volume", Resource::Volume)],
         &[("cell_range", Resource::CellRange)],
         slice(grid, grid.count()),

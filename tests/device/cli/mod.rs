@@ -3,6 +3,7 @@
 mod accuracy;
 #[path = "../../cli/program.rs"]
 pub mod program;
+mod shaders;
 mod stability;
 
 use std::sync::Arc;
@@ -40,6 +41,7 @@ pub fn tests() -> Vec<Test> {
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     tests.extend(accuracy::tests());
+    tests.extend(shaders::tests());
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
 }

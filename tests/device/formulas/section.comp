@@ -1,7 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@variant middle
-//@variant any MARK_FRAGDEPTH_ANY
 
 #include "../tests/device/formulas/arguments.glsl"
 #include "shared/frame.glsl"

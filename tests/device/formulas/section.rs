@@ -32,8 +32,12 @@ fn frame(passes: u32, step: f64, samples_per_pass: u32) -> Frame {
     Frame::new(&scene, &scene.camera.rays([4, 4]).unwrap(), passes, [0; 2])
 }
 
-fn evaluator(device: &Arc<Device>, variant: &str) -> Evaluator {
-    Evaluator::new(device, &format!("section.comp:{variant}"), &[])
+const MIDDLE: &str = "section.comp";
+/// For marks that have to rise.
+const ANY: &str = "section.comp:MARK_FRAGDEPTH_ANY";
+
+fn evaluator(device: &Arc<Device>, shader: &str) -> Evaluator {
+    Evaluator::new(device, shader, &[])
 }
 
 fn results(evaluator: &Evaluator, frame: Frame, arguments: &[[f32; 4]]) -> Vec<Results> {
@@ -48,7 +52,7 @@ fn sections(passes: u32) -> Vec<[f32; 4]> {
 }
 
 fn depth_of_a_section_is_its_twin(device: &Arc<Device>) {
-    let (middle, mut worst) = (evaluator(device, "middle"), Worst::default());
+    let (middle, mut worst) = (evaluator(device, MIDDLE), Worst::default());
     for passes in PASSES {
         for (section, found) in results(&middle, frame(passes, 1.0, 8), &sections(passes)).iter().enumerate() {
             let truth = section_depth(section as u32, passes);
@@ -62,8 +66,8 @@ fn depth_of_a_section_is_its_twin(device: &Arc<Device>) {
 
 /// The test of main pass k lets exactly the sections up to k through: end k - 1 < depth k <= end k, in f32.
 fn every_section_lies_between_its_bounds(device: &Arc<Device>) {
-    for variant in ["middle", "any"] {
-        let evaluator = evaluator(device, variant);
+    for shader in [MIDDLE, ANY] {
+        let evaluator = evaluator(device, shader);
         for passes in PASSES {
             let end = |section: u32| section_end(section, passes) as f32;
             let found = results(&evaluator, frame(passes, 1.0, 8), &sections(passes));
@@ -72,7 +76,7 @@ fn every_section_lies_between_its_bounds(device: &Arc<Device>) {
                 let before = section.checked_sub(1).map_or(0.0, end);
                 assert!(before < ahead && ahead <= arrived && arrived <= end(section), "{section} of {passes}");
                 // Compare GREATER lets only depths pass that rise.
-                assert!(variant == "middle" || ahead < arrived, "{section} of {passes}");
+                assert!(shader == MIDDLE || ahead < arrived, "{section} of {passes}");
             }
             assert_eq!(end(passes - 1), 0.5, "sections fill the lower half");
         }
@@ -89,7 +93,7 @@ fn distances() -> Vec<[f32; 4]> {
 }
 
 fn free_samples_are_those_of_the_twin(device: &Arc<Device>) {
-    let middle = evaluator(device, "middle");
+    let middle = evaluator(device, MIDDLE);
     for step in STEPS {
         let found = results(&middle, frame(1, step, 8), &distances());
         for (free, found) in found.iter().enumerate() {
@@ -100,7 +104,7 @@ fn free_samples_are_those_of_the_twin(device: &Arc<Device>) {
 
 /// A sample is free where it is no farther than what is free, but for rounding.
 fn free_samples_lie_nearer_than_the_work(device: &Arc<Device>) {
-    let middle = evaluator(device, "middle");
+    let middle = evaluator(device, MIDDLE);
     for step in STEPS {
         let found = results(&middle, frame(1, step, 8), &distances());
         for (free, found) in found.iter().enumerate() {

@@ -106,15 +106,17 @@ fn names_that_shaders_do_not_have_are_ignored(device: &Arc<Device>) {
 
 fn set_of_another_layout_is_refused(device: &Arc<Device>) {
     let pipeline = counter(device, &[]);
-    let range = shader_of_the_program("structure/cell_range.comp");
+    let range = cell_range();
     let other = ComputePipeline::new(device, "cell_range", &range, &[]).unwrap();
     let numbers = buffer(device, "numbers", 4, Place::Device);
     let set = bound(device, &pipeline, &numbers);
     refused(misuse(device, |commands| commands.bind_compute(&other, &set)), &["cell_range", "numbers of counter"]);
 }
 
-fn shader_of_the_program(name: &str) -> Shader {
-    Shader::new(name, &glsl::module(name).unwrap()).unwrap()
+/// A shader of the program.
+fn cell_range() -> Shader {
+    let shader = glsl::Shader::new("structure/cell_range.comp", []);
+    Shader::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
 }
 
 fn stages_that_contradict_each_other_are_refused(device: &Arc<Device>) {

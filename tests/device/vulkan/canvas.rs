@@ -169,14 +169,18 @@ impl Canvas {
         depth: DepthState,
         blend: Blend,
     ) -> depthleap::Result<GraphicsPipeline> {
-        let vertex = Shader::new("box.vert", &glsl::module("box.vert").unwrap()).unwrap();
-        self.with_state(device, &vertex, Some(&crate::shader::shader("vulkan/color.frag")), depth, blend)
+        self.with_state(device, &box_vertex(), Some(&crate::shader::shader("vulkan/color.frag")), depth, blend)
     }
 
     /// Paints one colour added to what was there.
     pub fn adder(&self, device: &Arc<Device>, blend: Blend) -> depthleap::Result<GraphicsPipeline> {
-        let vertex = Shader::new("box.vert", &glsl::module("box.vert").unwrap()).unwrap();
-        self.with_state(device, &vertex, Some(&crate::shader::shader("vulkan/before.frag")), DepthState::OFF, blend)
+        self.with_state(
+            device,
+            &box_vertex(),
+            Some(&crate::shader::shader("vulkan/before.frag")),
+            DepthState::OFF,
+            blend,
+        )
     }
 
     /// All of it.
@@ -236,4 +240,10 @@ pub struct Stroke {
 
 pub fn rectangle([x, y]: [i32; 2], [width, height]: [u32; 2]) -> vk::Rect2D {
     vk::Rect2D { offset: vk::Offset2D { x, y }, extent: vk::Extent2D { width, height } }
+}
+
+/// The program's own vertex shader.
+fn box_vertex() -> Shader {
+    let shader = glsl::Shader::new("box.vert", []);
+    Shader::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
 }

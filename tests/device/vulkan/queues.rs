@@ -142,8 +142,8 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
         let bytes = expected.len() as u64 * 8;
         let ranges = buffer(device, "cell_range", bytes, Place::Device);
         let result = buffer(device, "result", bytes, Place::Readback);
-        let name = "structure/cell_range.comp";
-        let build = Shader::new(name, &glsl::module(name).unwrap()).unwrap();
+        let build = glsl::Shader::new("structure/cell_range.comp", []);
+        let build = Shader::new(build.file, &glsl::module(&build).unwrap()).unwrap();
         let build = ComputePipeline::new(device, "cell_range", &build, &[]).unwrap();
         let sampler = Sampler::new(device, "nearest", false).unwrap();
         let (empty, to) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);

@@ -1,0 +1,100 @@
+//! Every shader that the program may ask for: those of the plans of all methods, forms and kinds of scenes, of the probe,
+//! and of the self-check.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use depthleap::frame::texture_unit;
+use depthleap::glsl::Shader;
+use depthleap::method::{self, METHODS};
+use depthleap::part::form::Form;
+use depthleap::plan::{Plan, plan};
+use depthleap::probe::{Case, rig};
+use depthleap::read;
+use depthleap::scene::field::{Field, NanPolicy};
+use depthleap::scene::settings::{Classification, Filter, MethodName};
+use depthleap::scene::volume::{Volume, Voxels};
+use depthleap::scene::{Scene, Settings};
+
+/// What a scene may be like, apart from its method and form.
+#[derive(Clone, Copy, Debug)]
+struct Like {
+    preintegrated: bool,
+    nearest: bool,
+    holes: bool,
+    planner: bool,
+    /// Some rays end before they leave the volume.
+    ends: bool,
+    /// Some cells show nothing.
+    skips: bool,
+    cell: u32,
+}
+
+fn likes() -> Vec<Like> {
+    let bit = |bits: u32, of: u32| bits >> of & 1 == 1;
+    let all = (0..1 << 7).map(|bits| Like {
+        preintegrated: bit(bits, 0),
+        nearest: bit(bits, 1),
+        holes: bit(bits, 2),
+        planner: bit(bits, 3),
+        ends: bit(bits, 4),
+        skips: bit(bits, 5),
+        cell: if bit(bits, 6) { 4 } else { 1 },
+    });
+    // A table stands for values between two samples, which neither labels nor holes have.
+    all.filter(|like| !(like.preintegrated && (like.nearest || like.holes))).collect()
+}
+
+fn scene(method: MethodName, like: Like) -> Scene {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:8".to_owned());
+    settings.image.size = [8, 8];
+    settings.method.name = method;
+    settings.method.cell = like.cell;
+    settings.method.planner = like.planner;
+    settings.sampling.samples_per_pass = 4;
+    settings.sampling.termination = if like.ends { 0.5 } else { 1.0 };
+    settings.sampling.filter = if like.nearest { Filter::Nearest } else { Filter::Hardware };
+    if like.preintegrated {
+        settings.sampling.classification = Classification::PreIntegrated;
+    }
+    let first = if like.skips { 0.0 } else { 0.5 };
+    settings.transfer.points =
+        Some(vec![[0.0, 0.2, 0.4, 1.0, first], [0.5, 0.2, 0.4, 1.0, first], [1.0, 1.0, 0.5, 0.1, 0.9]]);
+    let mut scene = read::scene(&settings).unwrap();
+    if like.holes {
+        let mut volume: Volume = scene.field.volume.clone();
+        let mut values: Vec<f32> = (0..volume.voxels.len()).map(|i| volume.voxels.get(i) as f32).collect();
+        values[0] = f32::NAN;
+        volume.voxels = Voxels::F32(values);
+        scene.field = Arc::new(Field::new(volume, None, NanPolicy::Hole).unwrap());
+    }
+    scene
+}
+
+/// The plans of everything above, with what tells them apart.
+pub fn plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for method in METHODS.map(|row| row.name()) {
+        let mut forms: Vec<Option<Form>> = method::forms(method).into_iter().map(Some).collect();
+        if forms.is_empty() {
+            forms.push(None);
+        }
+        for like in likes() {
+            let scene = scene(method, like);
+            for form in &forms {
+                let name = format!("{} {} {like:?}", method.name(), form.map(Form::name).unwrap_or_default());
+                plans.push((name, plan(&scene, *form).unwrap()));
+            }
+        }
+    }
+    plans
+}
+
+/// The shaders of these plans and of what has no plan.
+pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
+    let steps = plans.iter().flat_map(|(_, plan)| &plan.steps);
+    let planned = steps.filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
+    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader(), Shader::new("box.vert", [])]);
+    planned.chain(others).collect()
+}
