@@ -5,7 +5,7 @@
 //! 1. [`scene`]: what is to be seen: volume, transfer function, camera, sampling, method. Knows no Vulkan.
 //! 2. [`plan`]: scene to a flat list of steps anyone can print, with what was left out and why.
 //! 3. [`method`] and [`feature`]: what each renderer is and what a frame may have, as rows; [`pass`]: each pass said once: its
-//!    GLSL, what it reads and draws into, its f64 twin in [`mod@reference`]; [`part`]: the types of all of these.
+//!    GLSL, what it reads and draws into, its f64 twin in [`twin`]; [`part`]: the types of all of these.
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors of frames, one record a run.
 //! 6. [`report`]: records to tables, claims, pages and plots.
@@ -13,7 +13,7 @@
 //!
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
-//! Imports point one way: `error, math <- scene <- read, structure <- reference, shared`;
+//! Imports point one way: `error, math <- scene <- read, structure, truth <- twin, shared`;
 //! `error <- provenance, glsl, vulkan <- probe`; all of these `<- part <- feature <- pass <- method <- plan <- frame <- measure <- report
 //! <- experiment <- cli`.
 
@@ -32,11 +32,13 @@ pub mod plan;
 pub mod probe;
 pub mod provenance;
 pub mod read;
-pub mod reference;
+
 pub mod report;
 pub mod scene;
 pub mod shared;
 pub mod structure;
+pub mod truth;
+pub mod twin;
 pub mod vulkan;
 
 pub use error::{Error, Result};

@@ -5,11 +5,11 @@ mod random;
 use depthleap::math::interpolate::trilinear;
 use depthleap::math::opacity::{composite, corrected_opacity, extinction};
 use depthleap::math::ray::{ViewRays, box_interval};
-use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::transfer::Knot;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Camera, Field, TransferFunction, Volume};
+use depthleap::truth::exact::ExactIntegrator;
 use glam::{DVec3, dvec3};
 use random::Random;
 

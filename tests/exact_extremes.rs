@@ -2,11 +2,11 @@
 
 mod random;
 
-use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::transfer::Knot;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, TransferFunction, Volume};
+use depthleap::truth::exact::ExactIntegrator;
 use glam::DVec3;
 use random::Random;
 

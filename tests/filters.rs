@@ -8,7 +8,6 @@ use std::sync::Arc;
 use depthleap::frame::texture::Texels;
 use depthleap::math::interpolate::{nearest, trilinear};
 use depthleap::read;
-use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::field::{NanPolicy, Normalisation};
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
 use depthleap::scene::settings::{Filter, Settings, VolumeTexture};
@@ -17,6 +16,7 @@ use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TextureUnit, TransferFunction, Volume};
 use depthleap::structure::cells::{self, Values};
 use depthleap::structure::grid::Grid;
+use depthleap::truth::exact::ExactIntegrator;
 use glam::DVec3;
 use random::Random;
 

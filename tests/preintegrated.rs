@@ -3,10 +3,10 @@
 use depthleap::math::opacity::corrected_opacity;
 use depthleap::plan;
 use depthleap::read;
-use depthleap::reference::exact::Absorber;
-use depthleap::reference::preintegrated::{Table, part_of};
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Alpha, Classification, Offset, Settings};
+use depthleap::truth::exact::Absorber;
+use depthleap::truth::preintegrated::{PreintegratedTable, part_of};
 
 fn scene(tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
     let mut settings = Settings::default();
@@ -18,7 +18,7 @@ fn scene(tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
 }
 
 /// Colour and opacity by the values at both ends.
-fn look_up(table: &Table, front: f64, back: f64) -> [f64; 4] {
+fn look_up(table: &PreintegratedTable, front: f64, back: f64) -> [f64; 4] {
     table.between(table.node(front), table.node(back))
 }
 
@@ -29,7 +29,7 @@ fn near(found: [f64; 4], expected: [f64; 4], tolerance: f64) {
 #[test]
 fn a_constant_medium_is_beers_law() {
     for step in [0.1, 1.0, 7.0] {
-        let table = Table::new(&scene("haze", |s| s.sampling.step = step));
+        let table = PreintegratedTable::new(&scene("haze", |s| s.sampling.step = step));
         let alpha = corrected_opacity(0.01, step);
         for [front, back] in [[0.0, 1.0], [0.3, 0.3], [1.0, 0.2]] {
             let [r, g, b, a] = look_up(&table, front, back);
@@ -45,7 +45,7 @@ fn a_constant_medium_is_beers_law() {
 fn a_ramps_optical_depth_is_the_mean_along_it() {
     // The integral of -ln(1 - x) from 0 on.
     let sum = |x: f64| x + (1.0 - x) * (-x).ln_1p();
-    let table = Table::new(&scene("linear", |_| {}));
+    let table = PreintegratedTable::new(&scene("linear", |_| {}));
     for (front, back) in [(0.1, 0.7), (0.7, 0.1), (0.0, 0.9), (0.45, 0.4501)] {
         let mean = (sum(back) - sum(front)) / (back - front);
         let [_, _, _, a] = look_up(&table, front, back);
@@ -56,7 +56,7 @@ fn a_ramps_optical_depth_is_the_mean_along_it() {
 #[test]
 fn entries_are_the_exact_integral_and_the_order_of_values_counts() {
     let scene = scene("surface", |s| s.sampling.step = 2.0);
-    let table = Table::new(&scene);
+    let table = PreintegratedTable::new(&scene);
     let medium = Absorber::new(&scene.transfer);
     for (front, back) in [(0.1, 0.9), (0.9, 0.1), (0.31, 0.3), (0.0, 0.300001)] {
         near(look_up(&table, front, back), medium.ramp(front, back, 2.0), 2e-3);
@@ -69,7 +69,7 @@ fn entries_are_the_exact_integral_and_the_order_of_values_counts() {
 #[test]
 fn what_shows_nothing_shows_nothing_in_the_table() {
     for tf in ["ramp", "surface"] {
-        let table = Table::new(&scene(tf, |_| {}));
+        let table = PreintegratedTable::new(&scene(tf, |_| {}));
         let knee = if tf == "ramp" { 0.25 } else { 0.3f64.next_down() };
         for front in [0.0, 0.1, 0.2499999, knee] {
             for back in [0.0, 0.2, 0.2499999, knee] {
@@ -83,7 +83,7 @@ fn what_shows_nothing_shows_nothing_in_the_table() {
 #[test]
 fn values_beyond_the_transfer_function_are_on_the_axes() {
     let scene = scene("linear", |s| s.volume.range = Some([0.2, 0.6].map(Into::into)));
-    let table = Table::new(&scene);
+    let table = PreintegratedTable::new(&scene);
     let low = scene.field.values.iter().copied().fold(f32::INFINITY, f32::min);
     let high = scene.field.values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     assert!(low < 0.0 && high > 1.0, "{low} {high}");

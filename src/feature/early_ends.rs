@@ -2,9 +2,9 @@
 
 use super::reasons::never_ends;
 use crate::part::rows::{Context, Feature, Hook, Why};
-use crate::reference::fused::blend_rounding;
 use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
+use crate::twin::fused::blend_rounding;
 
 /// Rays whose opacity comes above T end there.
 pub const EARLY_ENDS: Feature =

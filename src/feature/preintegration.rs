@@ -7,8 +7,10 @@ use crate::part::rows::{Feature, Hook};
 pub const PREINTEGRATION: Feature = Feature {
     with: Some("PREINTEGRATED"),
     reads: |_| vec![Resource::Preintegrated, Resource::Axis],
-    ..Feature::at(Hook::Sample, "pre-integrated table", |context| match context.scene.settings.sampling.spans() {
-        true => Ok(()),
-        false => Err("samples are classified by their own value".into()),
+    ..Feature::at(Hook::Sample, "pre-integrated table", |context| {
+        match context.scene.settings.sampling.preintegrates() {
+            true => Ok(()),
+            false => Err("samples are classified by their own value".into()),
+        }
     })
 };

@@ -2,12 +2,12 @@
 
 use crate::part::resource::Resource;
 use crate::plan::{Plan, bytes_per_pixel};
-use crate::reference::preintegrated;
 use crate::scene::Scene;
 use crate::scene::texture::TextureChoice;
 use crate::shared;
 use crate::structure::blocks::{BLOCK, CODES};
 use crate::structure::grid::{Grid, OCTANTS};
+use crate::truth::preintegrated;
 
 /// Bytes of a resource; none for what exists only while a structure is built.
 pub fn bytes(scene: &Scene, plan: &Plan, resource: Resource) -> Option<u64> {

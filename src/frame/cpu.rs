@@ -6,8 +6,8 @@ use super::structures::Structures;
 use crate::math::ray::box_interval;
 use crate::part::{Draw, Faces, Group, Work};
 use crate::plan::Plan;
-use crate::reference::{Effect, Pixel, Twin};
 use crate::scene::Scene;
+use crate::twin::{Effect, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
 #[derive(Clone, Debug)]

@@ -13,7 +13,6 @@ use super::upload;
 use crate::error::{Error, Result};
 use crate::part::resource::Resource;
 use crate::plan::Plan;
-use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::scene::settings::Filter;
 use crate::shared;
@@ -21,6 +20,7 @@ use crate::structure::Lookup;
 use crate::structure::blocks::{self, BLOCK};
 use crate::structure::cells::Support;
 use crate::structure::grid::DistanceField;
+use crate::truth::preintegrated::PreintegratedTable;
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 
 /// Images and buffers of one scene, made when the first plan asks for them.
@@ -33,7 +33,7 @@ pub struct Resident {
     /// What building the blocks' ranges took, milliseconds.
     blocks_ms: Option<f64>,
     /// The table whose image and axes are here.
-    table: Option<Arc<Table>>,
+    table: Option<Arc<PreintegratedTable>>,
 }
 
 impl Resident {
@@ -172,7 +172,7 @@ impl Resident {
     }
 
     /// Uploads a table of pre-integrated classification, unless it is the one that is here.
-    fn take_table(&mut self, scene: &Scene, table: Arc<Table>) -> Result<()> {
+    fn take_table(&mut self, scene: &Scene, table: Arc<PreintegratedTable>) -> Result<()> {
         if self.table.as_ref().is_some_and(|there| Arc::ptr_eq(there, &table)) {
             return Ok(());
         }

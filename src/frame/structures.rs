@@ -7,10 +7,10 @@ use cpu_time::ProcessTime;
 use super::texture::Texels;
 use crate::part::resource::Resource;
 use crate::plan::Plan;
-use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
+use crate::truth::preintegrated::PreintegratedTable;
 
 /// A structure and what it cost.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Structures {
     pub distances: Vec<(Lookup, Built<DistanceField>)>,
     pub blocks: Option<Built<Blocks>>,
     /// Of pre-integrated classification, for one transfer function and one step.
-    pub table: Option<Arc<Table>>,
+    pub table: Option<Arc<PreintegratedTable>>,
 }
 
 impl Structures {
@@ -48,9 +48,9 @@ impl Structures {
     }
 
     /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
-    pub fn table(&self, scene: &Scene) -> Option<Arc<Table>> {
-        let new = || self.table.clone().unwrap_or_else(|| Arc::new(Table::new(scene)));
-        scene.settings.sampling.spans().then(new)
+    pub fn table(&self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
+        let new = || self.table.clone().unwrap_or_else(|| Arc::new(PreintegratedTable::new(scene)));
+        scene.settings.sampling.preintegrates().then(new)
     }
 
     /// The distances of that kind, where they were built.

@@ -7,8 +7,8 @@ use crate::part::steps::Steps;
 use crate::pass::clear::clear;
 use crate::pass::main_pass::main_pass;
 use crate::pass::near_neighbor::near_neighbor;
-use crate::reference::section::section_end;
 use crate::scene::settings::Distance;
+use crate::twin::section::section_end;
 
 /// A row of near-neighbor skipping by a kind of distance.
 pub(super) const fn by(distance: Distance, name: &'static str, about: &'static str, source: &'static str) -> Method {

@@ -12,8 +12,8 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::glsl::Shader;
-use crate::reference::TwinPass;
 use crate::shared::Slice;
+use crate::twin::TwinPass;
 use resource::{Access, Resource};
 
 /// One line of a plan: a pass with everything it needs to run.

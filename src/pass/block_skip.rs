@@ -8,7 +8,7 @@ use crate::part::form::Form;
 use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
-use crate::reference;
+use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
@@ -20,7 +20,7 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     ];
     accesses.extend(feature::reads(context, Hook::Decide));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
-    let mut draw = Draw::plain(Faces::Front, "block_skip.frag", reference::block_skip::block_skip);
+    let mut draw = Draw::plain(Faces::Front, "block_skip.frag", twin::block_skip::block_skip);
     draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

@@ -10,7 +10,7 @@ pub fn samples(scene: &Scene) -> Constant {
 
 /// Of passes that look ahead: a sample stands for all values up to the next one.
 pub fn spans(scene: &Scene) -> Constant {
-    ("SPANS", u32::from(scene.settings.sampling.spans()))
+    ("SPANS", u32::from(scene.settings.sampling.preintegrates()))
 }
 
 /// Of `mark.glsl`: how marks that are copied are written.

@@ -2,7 +2,7 @@
 
 use crate::part::resource::{Resource, Usage};
 use crate::part::{Draw, Faces, Group, Step, Work};
-use crate::reference;
+use crate::twin;
 
 pub fn direction() -> Step {
     Step {
@@ -16,6 +16,6 @@ pub fn direction() -> Step {
             Usage::Color.of(Resource::Direction),
         ]
         .into(),
-        work: Work::Draw(Draw::plain(Faces::Back, "direction.frag", reference::direction::direction)),
+        work: Work::Draw(Draw::plain(Faces::Back, "direction.frag", twin::direction::direction)),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::part::resource::{Resource, Usage};
 use crate::part::{Draw, Faces, Group, Step, Work};
-use crate::reference;
+use crate::twin;
 
 pub fn entry() -> Step {
     Step {
@@ -15,6 +15,6 @@ pub fn entry() -> Step {
             Usage::Color.of(Resource::Entry),
         ]
         .into(),
-        work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", reference::entry::entry)),
+        work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", twin::entry::entry)),
     }
 }

@@ -6,8 +6,8 @@ use crate::part::form::Form;
 use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
-use crate::reference;
-use crate::reference::section::section_end;
+use crate::twin;
+use crate::twin::section::section_end;
 
 /// Main pass `pass`, for rays whose stored section begins at or before it. The last one has nothing left to decide and marks
 /// nothing.
@@ -26,7 +26,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(Resource::Accumulated));
     accesses.extend(feature::reads(context, Hook::Sample));
-    let mut draw = Draw::plain(Faces::Front, "fused.frag", reference::fused::fused);
+    let mut draw = Draw::plain(Faces::Front, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Sample));
     draw.define(feature::defines(context, Hook::Decide));
     draw.blend = true;
@@ -34,7 +34,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Sample));
     draw.specialize(feature::constants(context, Hook::Decide));
-    let rounding = reference::fused::blend_rounding(scene.settings.image.accumulate);
+    let rounding = twin::fused::blend_rounding(scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     if pass + 1 < context.passes {

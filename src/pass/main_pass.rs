@@ -5,8 +5,8 @@ use crate::feature;
 use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
-use crate::reference;
 use crate::scene::settings::Cull;
+use crate::twin;
 
 /// Main pass `pass`, culled by `culled` = (how, greatest stored depth), or run for every fragment.
 pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
@@ -19,7 +19,7 @@ pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
         Usage::Color.of(Resource::Accumulated),
     ];
     accesses.extend(feature::reads(context, Hook::Sample));
-    let mut draw = Draw::plain(Faces::Front, "main_pass.frag", reference::main_pass::main_pass);
+    let mut draw = Draw::plain(Faces::Front, "main_pass.frag", twin::main_pass::main_pass);
     draw.define(feature::defines(context, Hook::Sample));
     draw.blend = true;
     draw.specialize([constants::samples(context.scene)]);

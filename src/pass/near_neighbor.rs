@@ -6,9 +6,9 @@ use crate::part::form::Form;
 use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
-use crate::reference;
-use crate::reference::section::section_end;
 use crate::scene::settings::Mark;
+use crate::twin;
+use crate::twin::section::section_end;
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
@@ -22,7 +22,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
-    let mut draw = Draw::plain(Faces::Front, "near_neighbor.frag", reference::near_neighbor::near_neighbor);
+    let mut draw = Draw::plain(Faces::Front, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
     draw.define(feature::defines(context, Hook::Decide));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

@@ -7,7 +7,7 @@ use crate::part::form::Form;
 use crate::part::resource::{Resource, Usage};
 use crate::part::rows::Context;
 use crate::part::{Draw, Faces, Group, Step};
-use crate::reference;
+use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
@@ -18,7 +18,7 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(Resource::Direction),
         Usage::Sampled.of(Resource::Accumulated),
     ];
-    let mut draw = Draw::plain(Faces::Front, "termination.frag", reference::termination::termination);
+    let mut draw = Draw::plain(Faces::Front, "termination.frag", twin::termination::termination);
     draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)

@@ -17,7 +17,6 @@ use crate::part::rows::{Context, Feature, Method, Why};
 use crate::part::steps::Steps;
 use crate::part::{Step, Work};
 use crate::pass::build;
-use crate::reference::section::most_sections;
 use crate::scene::settings::{Accumulate, Cull, DepthFormat, Formats, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
@@ -25,6 +24,7 @@ use crate::scene::{Region, Scene};
 use crate::structure::Lookup;
 use crate::structure::blocks::BLOCK;
 use crate::structure::grid::Grid;
+use crate::twin::section::most_sections;
 
 /// The frame of one scene, ready to be run.
 #[derive(Clone, Debug)]
@@ -112,7 +112,7 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
 /// When the camera is not one, the view needs more main passes than can be, or the scene cannot be classified as it asks
 /// for.
 pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
-    crate::reference::preintegrated::check(scene)?;
+    crate::truth::preintegrated::check(scene)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
     let view = View::new(scene)?;

@@ -5,10 +5,10 @@
 //! |difference| <= sum of T |c a - c' a' - (a - a') B| <= sum of T (brightest |a - a'| + a' |c - c'|), where T, the light
 //! that comes through, is at most 1 and T a' adds up to at most 1.
 
-use crate::reference::fused::blend_rounding;
 use crate::scene::Scene;
 use crate::scene::settings::{Alpha, Last};
 use crate::scene::transfer::Knot;
+use crate::twin::fused::blend_rounding;
 
 /// What f32 takes from a sum by each sample.
 const SAMPLE_ROUNDING: f64 = 1e-6;
@@ -56,6 +56,6 @@ fn corrected(scene: &Scene, change: f64) -> f64 {
         exponent if exponent >= 1.0 => exponent * change,
         exponent => change.powf(exponent).min(exponent * least_clear.powf(exponent - 1.0) * change),
     };
-    let any_length = sampling.last == Last::Partial || sampling.spans();
+    let any_length = sampling.last == Last::Partial || sampling.preintegrates();
     (if any_length { whole.max(shorter) } else { whole }).min(1.0)
 }

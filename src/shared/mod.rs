@@ -9,9 +9,9 @@ pub use slice::Slice;
 use bytemuck::{Pod, Zeroable};
 
 use crate::math::ray::ViewRays;
-use crate::reference::preintegrated::Table;
 use crate::scene::Scene;
 use crate::scene::transfer::TransferFunction;
+use crate::truth::preintegrated::PreintegratedTable;
 
 /// A number as two f32: itself rounded, and what rounding took (`glsl/shared/double_float.glsl`).
 fn double_float(value: f64) -> [f32; 2] {
@@ -140,8 +140,8 @@ pub struct AxisPiece {
 }
 
 /// The pieces of a table's axes; `map` takes x to units of the volume texture.
-pub fn axis_pieces(table: &Table, map: impl Fn(f64) -> f64) -> Vec<AxisPiece> {
-    let piece = |piece: &crate::reference::preintegrated::AxisPiece| {
+pub fn axis_pieces(table: &PreintegratedTable, map: impl Fn(f64) -> f64) -> Vec<AxisPiece> {
+    let piece = |piece: &crate::truth::preintegrated::TablePiece| {
         let [begin, end] = piece.x.map(|x| map(x) as f32);
         let inverse_length = if end > begin { 1.0 / (end - begin) } else { 0.0 };
         AxisPiece { begin, inverse_length, first: piece.first as f32, intervals: piece.intervals as f32 }

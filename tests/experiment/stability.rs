@@ -159,7 +159,7 @@ fn every_case_says_what_it_holds_and_why() {
 
 #[test]
 fn sections_are_as_many_as_a_format_tells_apart() {
-    use depthleap::reference::section::{most_sections, section_depth, section_end};
+    use depthleap::twin::section::{most_sections, section_depth, section_end};
     assert_eq!(most_sections(DepthFormat::D16), 5461);
     assert!(most_sections(DepthFormat::D24) > 65_536 && most_sections(DepthFormat::D32) > 65_536);
     // Every mark of 16 bits is on its own side of every bound of 16 bits.

@@ -29,13 +29,13 @@ fn vanishes_at_faces(scene: &Scene) -> bool {
 pub fn expected_order(scene: &Scene) -> Option<f64> {
     let sampling = &scene.settings.sampling;
     let jumps = scene.transfer.jumps().next().is_some();
-    if sampling.alpha == Alpha::Paper || jumps && !sampling.spans() {
+    if sampling.alpha == Alpha::Paper || jumps && !sampling.preintegrates() {
         return None;
     }
     let vanishes = vanishes_at_faces(scene);
     Some(match (sampling.offset, sampling.last) {
         // The value itself is of the second order between samples, and what is made of it is exact.
-        _ if sampling.spans() && (vanishes || sampling.last == Last::Partial) => 2.0,
+        _ if sampling.preintegrates() && (vanishes || sampling.last == Last::Partial) => 2.0,
         // Both ends weigh nothing, so that it is the trapezoid rule.
         _ if vanishes => 2.0,
         (Offset::Left, _) => 1.0,
@@ -60,19 +60,19 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
         "opacities are taken as they stand, so that the sum grows with the number of samples and has no limit",
     );
     say(
-        vanishes && !sampling.spans() && sampling.offset == Offset::Left && sampling.alpha != Alpha::Paper,
+        vanishes && !sampling.preintegrates() && sampling.offset == Offset::Left && sampling.alpha != Alpha::Paper,
         "nothing shows at the faces, where both ends of a ray are: the left sum is the trapezoid rule there, of order 2",
     );
     say(
-        sampling.spans(),
+        sampling.preintegrates(),
         "what lies between the entries of the pre-integrated table is interpolated, an error that does not fall with the step",
     );
     say(
-        !vanishes && (sampling.offset == Offset::Midpoint || sampling.spans()) && sampling.last == Last::Full,
+        !vanishes && (sampling.offset == Offset::Midpoint || sampling.preintegrates()) && sampling.last == Last::Full,
         "the volume is filled up to its faces, and the last sample stands for a whole step: order 1 instead of 2",
     );
     say(
-        scene.transfer.jumps().next().is_some() && !sampling.spans(),
+        scene.transfer.jumps().next().is_some() && !sampling.preintegrates(),
         "the transfer function jumps: where a ray crosses the jump the error is of the first order in the step, and as large as \
          the jump where it only touches it",
     );

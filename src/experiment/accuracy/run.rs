@@ -15,10 +15,10 @@ use crate::measure::{Measured, compare};
 use crate::method;
 use crate::provenance::Provenance;
 use crate::read;
-use crate::reference::exact::ExactIntegrator;
-use crate::reference::preintegrated;
 use crate::scene::Scene;
 use crate::scene::settings::{MethodName, MethodSettings, Settings};
+use crate::truth::exact::ExactIntegrator;
+use crate::truth::preintegrated;
 
 /// So many ways of sampling are run by every method.
 const FOR_ALL: usize = 3;

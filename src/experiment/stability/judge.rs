@@ -7,9 +7,9 @@ use crate::error::Result;
 use crate::frame::{CpuFrame, Structures, cpu};
 use crate::method;
 use crate::plan;
-use crate::reference::exact::ExactIntegrator;
 use crate::scene::settings::MethodName;
 use crate::scene::{Field, Scene};
+use crate::truth::exact::ExactIntegrator;
 
 /// A picture, with what is known of how it came.
 #[derive(Clone, Debug, Default)]

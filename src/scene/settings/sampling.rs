@@ -67,7 +67,7 @@ section! {
 
 impl SamplingSettings {
     /// Whether a sample stands for all values up to the next one, not for its own alone.
-    pub fn spans(&self) -> bool {
+    pub fn preintegrates(&self) -> bool {
         self.classification == Classification::PreIntegrated
     }
 }

@@ -1,11 +1,11 @@
-//! `glsl/shared/samples.glsl` and `src/reference/samples.rs`.
+//! `glsl/shared/samples.glsl` and `src/twin/samples.rs`.
 
 use std::sync::Arc;
 
-use depthleap::reference::{Pixel, Twin};
 use depthleap::scene::Scene;
 use depthleap::scene::settings::Offset;
 use depthleap::shared::Frame;
+use depthleap::twin::{Pixel, Twin};
 use depthleap::vulkan::{Device, Resource, Sampler, vk};
 use glam::DVec3;
 

@@ -1,12 +1,12 @@
-//! `glsl/shared/section.glsl` and `src/reference/section.rs`.
+//! `glsl/shared/section.glsl` and `src/twin/section.rs`.
 
 use std::sync::Arc;
 
-use depthleap::reference::DEAD;
-use depthleap::reference::section::{free_samples, section_depth, section_end};
 use depthleap::scene::Scene;
 use depthleap::shared::Frame;
 use depthleap::structure::grid::SLACK;
+use depthleap::twin::DEAD;
+use depthleap::twin::section::{free_samples, section_depth, section_end};
 use depthleap::vulkan::Device;
 
 use super::kit::{Evaluator, ROUNDING, Setup, Worst};

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use depthleap::frame::CpuFrame;
 use depthleap::method;
-use depthleap::reference::exact::ExactIntegrator;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{Classification, Last, MethodName, Offset, Settings};
+use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
 use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen};

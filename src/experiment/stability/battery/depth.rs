@@ -2,8 +2,8 @@
 
 use super::super::case::{COLOR, Expect, SAME_SUM, StabilityCase, Tolerance};
 use crate::method;
-use crate::reference::section::most_sections;
 use crate::scene::settings::{Cull, DepthFormat, Mark, MethodName};
+use crate::twin::section::most_sections;
 
 const GROUP: &str = "depth buffer";
 

@@ -1,13 +1,11 @@
-//! The f64 reference: a twin of every pass, under the same stem, and an independent exact integrator.
+//! The f64 reference: a twin of every pass and of what passes share, under the same stem as in `glsl`.
 
 pub mod block_skip;
 pub mod direction;
 pub mod entry;
-pub mod exact;
 pub mod fused;
 pub mod main_pass;
 pub mod near_neighbor;
-pub mod preintegrated;
 pub mod samples;
 pub mod section;
 pub mod segment;
@@ -19,6 +17,7 @@ use crate::math::ray::ViewRays;
 use crate::scene::Scene;
 use crate::structure::blocks::Blocks;
 use crate::structure::grid::DistanceField;
+use crate::truth::preintegrated::PreintegratedTable;
 
 /// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
 pub const DEAD: f64 = 1.0;
@@ -33,7 +32,7 @@ pub struct Twin<'a> {
     pub distance: Option<&'a DistanceField>,
     pub blocks: Option<&'a Blocks>,
     /// Of pre-integrated classification.
-    pub table: Option<&'a preintegrated::Table>,
+    pub table: Option<&'a PreintegratedTable>,
 }
 
 /// One pixel of every image of the frame.

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use super::preintegrated::{Table, part_of};
 use super::samples::FACE_ROUNDING;
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::{nearest, trilinear};
 use crate::math::opacity::{composite, corrected_opacity};
 use crate::scene::settings::{Alpha, Filter, Last};
+use crate::truth::preintegrated::{PreintegratedTable, part_of};
 
 /// Three interpolations of values about 1 round to a few units of 2^-24.
 const VALUE_ROUNDING: f64 = 3e-7;
@@ -71,7 +71,7 @@ impl Twin<'_> {
     }
 
     /// Premultiplied colour of sample `i`, which stands for all values up to that of the next one or of the exit point.
-    fn shade_span(&self, table: &Table, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+    fn shade_span(&self, table: &PreintegratedTable, pixel: &mut Pixel, i: u32) -> [f64; 4] {
         let [front, back] = self.span(pixel, i).map(|steps| {
             let voxel = self.voxel(self.position_at(pixel, steps));
             table.node(self.value(pixel, voxel))

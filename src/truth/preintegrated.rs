@@ -41,7 +41,7 @@ pub fn check(scene: &Scene) -> Result<()> {
         Err(Error::usage("sampling.classification (--classification) pre-integrated", problem, remedy))
     };
     match () {
-        () if !sampling.spans() => Ok(()),
+        () if !sampling.preintegrates() => Ok(()),
         () if sampling.offset != Offset::Left => {
             refuse("takes values at both ends of a step, not in its middle".into(), "use --offset left")
         }
@@ -63,8 +63,8 @@ pub fn check(scene: &Scene) -> Result<()> {
 
 /// Premultiplied colour and opacity of a step, by the values at its ends.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    pub pieces: Vec<AxisPiece>,
+pub struct PreintegratedTable {
+    pub pieces: Vec<TablePiece>,
     /// Nodes along each axis.
     pub nodes: usize,
     /// `[back][front]`.
@@ -73,7 +73,7 @@ pub struct Table {
 
 /// A piece of the axes: before the first knot, between two knots, or after the last one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisPiece {
+pub struct TablePiece {
     /// Where it begins and ends, x.
     pub x: [f64; 2],
     /// Its first node.
@@ -89,7 +89,7 @@ struct Node {
     knot: Knot,
 }
 
-impl Table {
+impl PreintegratedTable {
     /// The table for the scene's transfer function and step; see [`check`].
     pub fn new(scene: &Scene) -> Self {
         let (transfer, sampling) = (&scene.transfer, &scene.settings.sampling);
@@ -154,7 +154,7 @@ pub fn part_of(whole: [f64; 4], steps: f64, alpha: Alpha) -> [f64; 4] {
 }
 
 /// Pieces of the axes for values from `low` to `high`.
-fn axis(transfer: &TransferFunction, [low, high]: [f64; 2]) -> Vec<AxisPiece> {
+fn axis(transfer: &TransferFunction, [low, high]: [f64; 2]) -> Vec<TablePiece> {
     let knots = transfer.knots();
     let (begin, end) = (knots[0].x, knots[knots.len() - 1].x);
     let inner = knots.windows(2).map(|pair| [pair[0].x, pair[1].x]);
@@ -169,17 +169,17 @@ fn axis(transfer: &TransferFunction, [low, high]: [f64; 2]) -> Vec<AxisPiece> {
                 i if i == knots.len() => BEYOND,
                 _ => share.ceil() as u32,
             };
-            let piece = AxisPiece { x, first, intervals };
+            let piece = TablePiece { x, first, intervals };
             first += intervals + 1;
             piece
         })
         .collect()
 }
 
-fn nodes_of(transfer: &TransferFunction, index: usize, piece: &AxisPiece) -> impl Iterator<Item = Node> {
+fn nodes_of(transfer: &TransferFunction, index: usize, piece: &TablePiece) -> impl Iterator<Item = Node> {
     let knots = transfer.knots();
     let (from, to) = (knots[index.saturating_sub(1)], knots[index.min(knots.len() - 1)]);
-    let AxisPiece { x, intervals, .. } = *piece;
+    let TablePiece { x, intervals, .. } = *piece;
     (0..=intervals).map(move |i| {
         let weight = f64::from(i) / f64::from(intervals);
         // The ends to the bit.
