@@ -39,7 +39,7 @@
 #ifndef ENDLESS
 layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
 
-// More than the blend unit may take from an opacity (BLEND_ROUNDING in src/reference/fused.rs).
+// More than the blend unit may take from an opacity (BLEND_ROUNDING in src/twin/fused.rs).
 layout(constant_id = 10) const float BLEND_ROUNDING = 0.0;
 #endif
 

@@ -1,4 +1,4 @@
-// Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next. Twin: src/reference/near_neighbor.rs.
+// Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next. Twin: src/twin/near_neighbor.rs.
 // Needs frame.glsl, mark.glsl, double_float.glsl, samples.glsl and section.glsl.
 //
 // Departures: 1. distances are bounds for the trilinear footprint, not from voxel to voxel; and since they hold from

@@ -1,5 +1,5 @@
 // Pre-integrated classification: what the transfer function makes of all values between those at the two ends of a
-// step, from a table. Takes the place of transfer.glsl. Twin: src/reference/preintegrated.rs. Needs volume.glsl and
+// step, from a table. Takes the place of transfer.glsl. Twin: src/truth/preintegrated.rs. Needs volume.glsl and
 // opacity.glsl.
 
 // A piece of the table's axes: one of the transfer function's, or what lies beyond them all. Nodes are evenly spaced in it.

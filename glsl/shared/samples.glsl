@@ -1,4 +1,4 @@
-// Samples along a ray: how many and where. Twin: src/reference/samples.rs. Needs frame.glsl and double_float.glsl.
+// Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl and double_float.glsl.
 
 layout(set = 0, binding = 1) uniform sampler2D entry;
 layout(set = 0, binding = 2) uniform sampler2D direction;

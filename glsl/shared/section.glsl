@@ -1,5 +1,5 @@
 // Sections of the depth range, one a main pass [Thesis §5.3]: the lower half, [0, 0.5), cut into N.
-// Twin: src/reference/section.rs. Needs frame.glsl and mark.glsl.
+// Twin: src/twin/section.rs. Needs frame.glsl and mark.glsl.
 
 // Where inside its section a mark lies.
 #ifdef MARK_FRAGDEPTH_ANY

@@ -1,4 +1,4 @@
-// The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/reference/segment.rs.
+// The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl) and opacity.glsl.
 
 #ifndef PREINTEGRATED
