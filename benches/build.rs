@@ -41,9 +41,8 @@ fn main() -> Result<()> {
                 let mut times: [Vec<f64>; 3] = Default::default();
                 for run in 0..=RUNS {
                     resident.forget_transfer();
-                    resident.prepare(&scene, &plan, &Structures::default())?;
-                    let Some(built) = resident.built(&lookup) else { continue };
-                    let (whole, view) = (built.ms, built.view_ms);
+                    resident.prepare(&scene, &plan)?;
+                    let Some([whole, view]) = resident.build_ms(&plan) else { continue };
                     let mut host = Structures::default();
                     host.prepare(&scene, &plan);
                     // The first one warms up.

@@ -34,6 +34,7 @@ pub mod provenance;
 pub mod read;
 
 pub mod report;
+pub mod resource;
 pub mod scene;
 pub mod shared;
 pub mod structure;

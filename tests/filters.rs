@@ -5,9 +5,9 @@ mod random;
 
 use std::sync::Arc;
 
-use depthleap::frame::texture::Texels;
 use depthleap::math::interpolate::{nearest, trilinear};
 use depthleap::read;
+use depthleap::resource::texels::Texels;
 use depthleap::scene::field::{NanPolicy, Normalisation};
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
 use depthleap::scene::settings::{Filter, Settings, VolumeTexture};

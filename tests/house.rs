@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &str); 22] = [
+const MAY_IMPORT: [(&str, &str); 23] = [
     ("error", ""),
     ("math", ""),
     ("provenance", "error"),
@@ -19,24 +19,25 @@ const MAY_IMPORT: [(&str, &str); 22] = [
     ("shared", "error math scene structure truth"),
     ("probe", "error provenance glsl vulkan"),
     ("part", "error math scene structure glsl vulkan truth twin shared"),
-    ("feature", "error math scene structure glsl vulkan truth twin shared part"),
-    ("pass", "error math scene structure glsl vulkan truth twin shared part feature"),
-    ("method", "error math scene structure glsl vulkan truth twin shared part feature pass"),
-    ("plan", "error math scene structure glsl vulkan truth twin shared part feature pass method"),
-    ("frame", "error math scene structure glsl vulkan truth twin shared part feature pass method plan probe"),
+    ("resource", "error math scene structure vulkan truth shared part"),
+    ("feature", "error math scene structure glsl vulkan truth twin shared part resource"),
+    ("pass", "error math scene structure glsl vulkan truth twin shared part resource feature"),
+    ("method", "error math scene structure glsl vulkan truth twin shared part resource feature pass"),
+    ("plan", "error math scene structure glsl vulkan truth twin shared part resource feature pass method"),
+    ("frame", "error math scene structure glsl vulkan truth twin shared part resource feature pass method plan probe"),
     (
         "measure",
-        "error math scene structure glsl vulkan truth twin shared part feature pass method plan frame provenance",
+        "error math scene structure glsl vulkan truth twin shared part resource feature pass method plan frame provenance",
     ),
     ("report", "error math scene provenance measure"),
     (
         "experiment",
-        "error math scene read structure glsl vulkan truth twin shared part pass method plan frame probe provenance \
+        "error math scene read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
          measure report",
     ),
     (
         "cli",
-        "error math scene read structure glsl vulkan truth twin shared part pass method plan frame probe provenance \
+        "error math scene read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
          measure report experiment",
     ),
 ];

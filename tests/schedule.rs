@@ -6,10 +6,11 @@ mod cases;
 use std::collections::{HashMap, HashSet};
 
 use cases::cases;
-use depthleap::frame::compile::target_format;
 use depthleap::frame::schedule::{Scheduled, schedule};
-use depthleap::part::resource::{Resource, Usage};
+use depthleap::part::access::Usage;
+use depthleap::part::resource::Resource;
 use depthleap::part::{Step, Work};
+use depthleap::resource;
 use depthleap::scene::settings::{Accumulate, Formats};
 use depthleap::vulkan::{Attachment, Role, vk};
 
@@ -24,7 +25,7 @@ fn schedulings() -> Vec<Scheduling> {
     let each = |case: cases::Case| {
         let steps = case.plan.steps.into_iter().filter(|step| !matches!(step.work, Work::Dispatch { .. }));
         let steps: Vec<Step> = steps.collect();
-        let scheduled = schedule(&steps, |resource| target_format(resource, Formats::default()));
+        let scheduled = schedule(&steps, |resource| resource.format(Formats::default()));
         assert_eq!(steps.len(), scheduled.len());
         Scheduling { name: case.name, steps, scheduled }
     };
@@ -71,7 +72,7 @@ impl Scheduling {
             let left_alone = [Usage::DepthTest, Usage::ColorKept].map(|usage| usage.of(target));
             let tested_only = left_alone.iter().any(|access| self.steps[i].accesses.contains(access));
             // The picture is read after the last step.
-            let read_later = self.used_after(i, target) || target == Resource::Accumulated;
+            let read_later = self.used_after(i, target) || target == resource::ACCUMULATED;
             let expected = match (tested_only, read_later) {
                 (true, _) => vk::AttachmentStoreOp::NONE,
                 (false, true) => vk::AttachmentStoreOp::STORE,
@@ -171,9 +172,9 @@ fn first_draw_into_a_target_clears_and_later_ones_load() {
         let cleared = one.attachments().filter(|(_, _, a)| a.load == vk::AttachmentLoadOp::CLEAR).count();
         assert!(cleared >= 2, "entry and direction, at least, in {}", one.name);
     }
-    let wrong = altered("main_pass #1", Resource::Accumulated, |a| a.load = vk::AttachmentLoadOp::CLEAR);
+    let wrong = altered("main_pass #1", resource::ACCUMULATED, |a| a.load = vk::AttachmentLoadOp::CLEAR);
     assert_eq!(wrong.wrongly_loaded().len(), 1);
-    let wrong = altered("entry", Resource::Entry, |a| a.load = vk::AttachmentLoadOp::LOAD);
+    let wrong = altered("entry", resource::ENTRY, |a| a.load = vk::AttachmentLoadOp::LOAD);
     assert_eq!(wrong.wrongly_loaded().len(), 1);
 }
 
@@ -181,12 +182,12 @@ fn first_draw_into_a_target_clears_and_later_ones_load() {
 fn read_only_depth_stores_none_and_what_nobody_reads_is_not_stored() {
     for one in schedulings() {
         assert_eq!(one.wrongly_stored(), [""; 0]);
-        let picture = one.attachments().filter(|(_, target, _)| *target == Resource::Accumulated).last().unwrap();
+        let picture = one.attachments().filter(|(_, target, _)| *target == resource::ACCUMULATED).last().unwrap();
         assert_eq!(picture.2.store, vk::AttachmentStoreOp::STORE, "RES of {} is kept", one.name);
     }
-    let wrong = altered("main_pass #1", Resource::Stored, |a| a.store = vk::AttachmentStoreOp::STORE);
+    let wrong = altered("main_pass #1", resource::STORED, |a| a.store = vk::AttachmentStoreOp::STORE);
     assert_eq!(wrong.wrongly_stored().len(), 1);
-    let wrong = altered("main_pass #2", Resource::Accumulated, |a| a.store = vk::AttachmentStoreOp::DONT_CARE);
+    let wrong = altered("main_pass #2", resource::ACCUMULATED, |a| a.store = vk::AttachmentStoreOp::DONT_CARE);
     assert_eq!(wrong.wrongly_stored().len(), 1);
 }
 
@@ -196,7 +197,7 @@ fn last_marks_of_a_frame_that_nobody_copies_are_not_stored() {
     let case = cases().into_iter().find(|case| case.name == "nn-omni_ztest_copy").unwrap();
     let last = case.plan.steps.iter().rposition(|step| step.name.starts_with("mark_copy")).unwrap();
     let scheduled = schedule(&case.plan.steps[..last], |resource| {
-        target_format(resource, Formats { accumulate: Accumulate::Rgba8, ..Formats::default() })
+        resource.format(Formats { accumulate: Accumulate::Rgba8, ..Formats::default() })
     });
     let pass = scheduled.last().unwrap().render_pass.as_ref().unwrap();
     let marks = pass.attachments.iter().find(|attachment| attachment.name == "marks").unwrap();
@@ -209,12 +210,12 @@ fn layouts_chain_from_use_to_use() {
         assert_eq!(one.broken_chains(), [""; 0]);
     }
     let general = vk::ImageLayout::GENERAL;
-    let wrong = altered("near_neighbor #1", Resource::Marks, |a| a.before = general);
+    let wrong = altered("near_neighbor #1", resource::MARKS, |a| a.before = general);
     assert_eq!(wrong.broken_chains().len(), 1);
-    let wrong = altered("main_pass #0", Resource::Stored, |a| a.during = general);
+    let wrong = altered("main_pass #0", resource::STORED, |a| a.during = general);
     assert_eq!(wrong.broken_chains().len(), 1);
     // The list of layouts, and the use that follows.
-    let wrong = altered("main_pass #0", Resource::Accumulated, |a| a.after = general);
+    let wrong = altered("main_pass #0", resource::ACCUMULATED, |a| a.after = general);
     assert!(wrong.broken_chains().len() >= 2);
 }
 
@@ -226,7 +227,7 @@ fn read_only_depth_stays_in_a_read_only_layout() {
         for (i, target, attachment) in one.attachments() {
             if one.steps[i].accesses.contains(&Usage::DepthTest.of(target)) {
                 tested += 1;
-                assert_eq!((target, attachment.during), (Resource::Stored, read_only), "{}", one.name);
+                assert_eq!((target, attachment.during), (resource::STORED, read_only), "{}", one.name);
             }
         }
     }
@@ -238,7 +239,7 @@ fn every_use_waits_for_the_one_before() {
     for one in schedulings() {
         assert_eq!(one.unordered(), [""; 0]);
     }
-    let mut wrong = altered("main_pass #1", Resource::Accumulated, |_| ());
+    let mut wrong = altered("main_pass #1", resource::ACCUMULATED, |_| ());
     for scheduled in &mut wrong.scheduled {
         let Some(pass) = &mut scheduled.render_pass else { continue };
         pass.before.source = Default::default();

@@ -8,7 +8,6 @@ use serde::{Serialize, Serializer};
 
 use super::options::{SceneOptions, method_parser, scene_name};
 use super::output;
-use crate::frame::bytes::bytes;
 use crate::measure::record::TextureRecord;
 use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
@@ -55,9 +54,9 @@ struct PlanJson<'a> {
     steps: StepsJson<'a>,
     /// What frames draw into.
     targets: Vec<ResourceJson>,
-    /// All that steps read or write, in bytes on a device; null where only building it tells.
+    /// All that steps read or write, in bytes on a device.
     resources: Vec<ResourceJson>,
-    /// Of all resources whose bytes are known.
+    /// Of all that the frame itself reads or writes.
     bytes: u64,
     left_out: &'a [LeftOut],
     /// How the volume is kept, where it is read, with bounds of the errors of x and of a channel.
@@ -101,7 +100,7 @@ impl<'a> StepJson<'a> {
 #[derive(Serialize)]
 struct ResourceJson {
     name: &'static str,
-    bytes: Option<u64>,
+    bytes: u64,
 }
 
 impl PlanCommand {
@@ -150,9 +149,9 @@ fn text(scene: &Scene, plan: &plan::Plan) -> String {
 }
 
 fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> PlanJson<'a> {
-    let resources: Vec<(Resource, Option<u64>)> =
-        plan.resources().into_iter().map(|r| (r, bytes(scene, plan, r))).collect();
-    let json = |(resource, bytes): &(Resource, Option<u64>)| ResourceJson { name: resource.name(), bytes: *bytes };
+    let (facts, of_frame) = (plan.facts(scene), plan.resources_of(plan.frame()));
+    let resources: Vec<(Resource, u64)> = plan.resources().into_iter().map(|r| (r, r.bytes(&facts))).collect();
+    let json = |(resource, bytes): &(Resource, u64)| ResourceJson { name: resource.name(), bytes: *bytes };
     let region = plan.view.region;
     PlanJson {
         version: crate::measure::record::FORMAT,
@@ -165,7 +164,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> Pl
         steps: StepsJson(&plan.steps),
         targets: resources.iter().filter(|(r, _)| r.is_target()).map(json).collect(),
         resources: resources.iter().map(json).collect(),
-        bytes: resources.iter().filter_map(|(_, bytes)| *bytes).sum(),
+        bytes: resources.iter().filter(|(r, _)| of_frame.contains(r)).map(|(_, bytes)| bytes).sum(),
         left_out: &plan.left_out,
         texture: TextureRecord::of(plan),
         warnings,

@@ -2,13 +2,13 @@
 
 use super::distances::DISTANCES;
 use super::reasons::{DENSE, ONLY_PASS};
-use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Feature, Hook, Why};
+use crate::resource;
 use crate::structure::cells::all_interesting;
 
 /// Ranges of the values in blocks of 8^3 cells, and the table CT.
 pub const BLOCK_RANGES: Feature = Feature {
-    reads: |_| vec![Resource::CellRange, Resource::BlockTable],
+    reads: |_| vec![resource::block_ranges(), resource::BLOCK_TABLE],
     ..Feature::at(Hook::Decide, "block ranges and their table", needed)
 };
 

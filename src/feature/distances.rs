@@ -2,8 +2,8 @@
 
 use super::reasons::DENSE;
 use crate::part::Constant;
-use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Feature, Hook, Why};
+use crate::resource;
 use crate::scene::settings::Distance;
 use crate::structure::cells::all_interesting;
 
@@ -11,7 +11,7 @@ use crate::structure::cells::all_interesting;
 pub const DISTANCES: Feature = Feature {
     without: Some("DENSE"),
     constants,
-    reads: |_| vec![Resource::NearestDistance],
+    reads: |_| vec![resource::NEAREST_DISTANCE],
     ..Feature::at(Hook::Decide, "distance structure", needed)
 };
 

@@ -25,7 +25,7 @@ pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
 
 use crate::part::Constant;
-use crate::part::resource::{Access, Usage};
+use crate::part::access::{Access, Usage};
 use crate::part::rows::{Context, Feature, Hook};
 use colors::COLORS;
 use decisions::LATER_DECISIONS;

@@ -3,13 +3,13 @@
 use super::colors::COLORS;
 use super::preintegration::PREINTEGRATION;
 use crate::part::Constant;
-use crate::part::resource::Resource;
 use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::resource;
 
 /// Pieces of the transfer function in a buffer, and the search for the piece of a value.
 pub const TRANSFER_FUNCTION: Feature = Feature {
     constants,
-    reads: |context| vec![if context.has(&COLORS) { Resource::Transfer } else { Resource::GreyTransfer }],
+    reads: |context| vec![if context.has(&COLORS) { resource::TRANSFER } else { resource::GREY_TRANSFER }],
     ..Feature::at(Hook::Sample, "transfer function", |context| match context.has(&PREINTEGRATION) {
         true => Err(Why::Untold),
         false => Ok(()),

@@ -7,8 +7,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::distances::Pending;
-use super::resident::Resident;
+use super::resident::{Pending, Resident};
 use crate::error::Result;
 use crate::method;
 use crate::scene::Scene;
@@ -32,6 +31,7 @@ pub struct Served {
 struct Coming {
     frame: usize,
     begun: usize,
+    lookup: Lookup,
     pending: Pending,
 }
 
@@ -64,7 +64,7 @@ impl Background {
         let ended = self.coming.as_ref().map_or(Ok(false), |coming| coming.pending.job.finished())?;
         if let Some(coming) = self.coming.take_if(|_| ended) {
             self.lead = (frame - coming.begun).max(1);
-            let lookup = coming.pending.lookup;
+            let lookup = coming.lookup;
             let ms = coming.pending.job.device_ms()?.unwrap_or(0.0);
             resident.finish(coming.pending, ms)?;
             self.ready.push((coming.frame, lookup));
@@ -102,12 +102,12 @@ impl Background {
             && self.ready.iter().all(|(made_for, _)| *made_for < ahead)
             && let Some(scene) = scene_of(ahead)
             && let Some(lookup) = lookup_of(&scene)?.filter(|lookup| lookup.view.is_some())
+            && let Some(mut pending) = resident.begin(&scene, &lookup)?
         {
-            let mut pending = resident.begin(&scene, &lookup)?;
             if self.device.separate_compute() {
                 pending.job.advance(usize::MAX, &[])?;
             }
-            self.coming = Some(Coming { frame: ahead, begun: frame, pending });
+            self.coming = Some(Coming { frame: ahead, begun: frame, lookup, pending });
         }
         let Some(coming) = self.coming.as_mut().filter(|_| !self.device.separate_compute()) else { return Ok(0.0) };
         let begin = Instant::now();

@@ -7,7 +7,8 @@ use ash::vk;
 
 use super::pipelines::Pipelines;
 use crate::error::Result;
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
+use crate::part::resource::Resource;
 use crate::part::{Dispatch, Step, Work};
 use crate::shared::Slice;
 use crate::vulkan::{

@@ -5,28 +5,30 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::made::{self, Made};
 use super::pipelines::PipelineKey;
 use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
-use crate::part::resource::{Access, Resource, Usage};
-use crate::part::{Draw, Faces, Group, Step, Work};
-use crate::plan::{Plan, bytes_per_pixel};
+use crate::part::access::{Access, Usage};
+use crate::part::resource::{Kind, Origin, Resource};
+use crate::part::{Draw, Faces, Step, Work};
+use crate::plan::Plan;
+use crate::resource;
 use crate::scene::Region;
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, DepthFormat, Filter, Formats};
-use crate::shared;
+use crate::scene::settings::{Filter, Formats};
 use crate::vulkan::{
-    Buffer, BufferInfo, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, Place, RenderPass,
-    RenderPassInfo, Sampler,
+    DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass, RenderPassInfo, Sampler,
 };
 
 /// The objects of a frame.
 pub struct Compiled {
     pub steps: Vec<CompiledStep>,
-    pub vertices: Option<Buffer>,
     pub targets: HashMap<Resource, Image>,
-    pub marks_buffer: Option<Buffer>,
+    /// Uploads of this frame: its box and its view.
+    pub own: HashMap<Resource, Made>,
+    pub marks_buffer: Option<Made>,
     pub region: Region,
 }
 
@@ -55,7 +57,7 @@ struct Compiler<'a> {
     plan: &'a Plan,
     resident: &'a mut Resident,
     targets: HashMap<Resource, Image>,
-    frame: Buffer,
+    own: HashMap<Resource, Made>,
     linear: Option<Sampler>,
     nearest: Sampler,
     framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
@@ -63,43 +65,21 @@ struct Compiler<'a> {
     sets: HashMap<(PipelineKey, Arc<Vec<Access>>), Arc<DescriptorSet>>,
 }
 
-/// The format of a target.
-pub fn target_format(resource: Resource, formats: Formats) -> vk::Format {
-    match resource {
-        Resource::Accumulated => match formats.accumulate {
-            Accumulate::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
-            Accumulate::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
-            Accumulate::Rgba8 => vk::Format::R8G8B8A8_UNORM,
-        },
-        Resource::Stored => match formats.depth {
-            DepthFormat::D32 => vk::Format::D32_SFLOAT,
-            DepthFormat::D24 => vk::Format::X8_D24_UNORM_PACK32,
-            DepthFormat::D16 => vk::Format::D16_UNORM,
-        },
-        // Of the same bytes, which are copied as they are.
-        Resource::Marks => match formats.depth {
-            DepthFormat::D32 | DepthFormat::D24 => vk::Format::R32_SFLOAT,
-            DepthFormat::D16 => vk::Format::R8G8_UNORM,
-        },
-        _ => vk::Format::R32G32B32A32_SFLOAT,
-    }
-}
-
 /// Makes every object the plan's graphics steps need.
 ///
 /// # Errors
 /// When the device cannot blend the accumulation format, a target is larger than it allows, or memory is short.
 pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut Resident) -> Result<Compiled> {
-    let steps: Vec<Step> = plan.steps.iter().filter(|s| s.group != Group::Structure).cloned().collect();
+    let steps = plan.frame().to_vec();
     resident.pipelines.prepare(&steps)?;
     let formats = scene.settings.formats();
-    let scheduled = schedule(&steps, |r| target_format(r, formats));
+    let scheduled = schedule(&steps, |resource| resource.format(formats));
     let mut compiler = Compiler {
         device,
         plan,
         resident,
         targets: targets(device, plan, formats)?,
-        frame: frame_buffer(device, scene, plan)?,
+        own: of_frame(device, scene, plan)?,
         linear: match scene.settings.sampling.filter {
             Filter::Hardware => Some(Sampler::new(device, "trilinear", true)?),
             Filter::Exact | Filter::Nearest => None,
@@ -115,31 +95,18 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
             _ => None,
         };
         compiled.push(CompiledStep {
-            accumulated_layout: scheduled.layouts.get(&Resource::Accumulated).copied(),
+            accumulated_layout: scheduled.layouts.get(&resource::ACCUMULATED).copied(),
             step,
             barriers: scheduled.barriers,
             draw,
         });
     }
-    let marks_buffer = compiler
-        .targets
-        .contains_key(&Resource::Marks)
-        .then(|| {
-            Buffer::new(
-                device,
-                BufferInfo {
-                    name: Resource::MarksBuffer.name().to_owned(),
-                    size: plan.view.region.pixels() * bytes_per_pixel(Resource::Marks, formats),
-                    usage: vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST,
-                    place: Place::Device,
-                },
-            )
-        })
-        .transpose()?;
+    let copies = compiler.targets.contains_key(&resource::MARKS);
+    let marks_buffer = copies.then(|| made::empty(device, resource::MARKS_BUFFER, &plan.facts(scene))).transpose()?;
     Ok(Compiled {
         steps: compiled,
-        vertices: vertex_buffer(device, plan)?,
         targets: compiler.targets,
+        own: compiler.own,
         marks_buffer,
         region: plan.view.region,
     })
@@ -157,12 +124,12 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             Usage::CopyTarget => vk::ImageUsageFlags::TRANSFER_DST,
             _ => vk::ImageUsageFlags::SAMPLED,
         };
-        if access.resource == Resource::Accumulated {
+        if access.resource == resource::ACCUMULATED {
             // The picture is read back.
             *flags |= vk::ImageUsageFlags::TRANSFER_SRC;
         }
     }
-    let accumulated = target_format(Resource::Accumulated, formats);
+    let accumulated = resource::ACCUMULATED.format(formats);
     if !device.format_supports(accumulated, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
         return Err(Error::device(
             &device.info.name,
@@ -170,8 +137,8 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             "choose another image.accumulate: rgba32f, rgba16f or rgba8",
         ));
     }
-    let stored = target_format(Resource::Stored, formats);
-    if usages.contains_key(&Resource::Stored)
+    let stored = resource::STORED.format(formats);
+    if usages.contains_key(&resource::STORED)
         && !device.format_supports(stored, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT)
     {
         return Err(Error::device(
@@ -187,7 +154,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             let info = ImageInfo {
                 name: resource.name().to_owned(),
                 extent: [width, height, 1],
-                format: target_format(resource, formats),
+                format: resource.format(formats),
                 usage,
                 volume: false,
                 shared: false,
@@ -197,39 +164,21 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
         .collect()
 }
 
-fn frame_buffer(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<Buffer> {
-    let region = plan.view.region;
-    let frame = shared::Frame::new(scene, &plan.view.rays, plan.passes, [region.x, region.y]);
-    let buffer = Buffer::new(
-        device,
-        BufferInfo {
-            name: Resource::Frame.name().to_owned(),
-            size: size_of_val(&frame) as u64,
-            usage: vk::BufferUsageFlags::UNIFORM_BUFFER,
-            place: Place::Upload,
-        },
-    )?;
-    buffer.write(0, bytemuck::bytes_of(&frame))?;
-    Ok(buffer)
-}
-
-/// Front triangles, then back triangles.
-fn vertex_buffer(device: &Arc<Device>, plan: &Plan) -> Result<Option<Buffer>> {
-    let corners: Vec<[f32; 3]> = [plan.view.front.as_slice(), &plan.view.back].concat();
-    if corners.is_empty() {
-        return Ok(None);
-    }
-    let buffer = Buffer::new(
-        device,
-        BufferInfo {
-            name: Resource::Box.name().to_owned(),
-            size: size_of_val(corners.as_slice()) as u64,
-            usage: vk::BufferUsageFlags::VERTEX_BUFFER,
-            place: Place::Upload,
-        },
-    )?;
-    buffer.write(0, bytemuck::cast_slice(&corners))?;
-    Ok(Some(buffer))
+/// Uploads what is made anew for every frame.
+fn of_frame(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<HashMap<Resource, Made>> {
+    let facts = plan.facts(scene);
+    let builds = plan.builds.iter().filter(|build| build.of_frame());
+    builds
+        .filter_map(|build| match build.asset.resource.of.origin {
+            Origin::Host(bytes) => Some((build, bytes)),
+            _ => None,
+        })
+        .map(|(build, bytes)| {
+            let resource = build.asset.resource;
+            plan.steps[build.steps.clone()].iter().for_each(|step| device.trace(&step.name));
+            Ok((resource, made::filled(device, resource, &facts, &bytes(&facts))?))
+        })
+        .collect()
 }
 
 impl Compiler<'_> {
@@ -285,16 +234,15 @@ impl Compiler<'_> {
             let layout = access.usage.layout();
             if access.usage == Usage::ColorInput {
                 bound.push((resource.name(), Bound::Input(&self.targets[&resource])));
-            } else if resource == Resource::Frame {
-                bound.push((resource.name(), Bound::Uniform(&self.frame)));
-            } else if let Some(buffer) = self.resident.buffer(resource) {
-                bound.push((resource.name(), Bound::Storage(buffer)));
             } else if let Some(image) = self.image(resource) {
-                let sampler = match &self.linear {
-                    Some(linear) if resource == Resource::Volume => linear,
+                let sampler = match (&self.linear, &resource.of.kind) {
+                    (Some(linear), Kind::Texture(texture)) if texture.filtered => linear,
                     _ => &self.nearest,
                 };
                 bound.push((resource.name(), Bound::Sampled(image, sampler, layout)));
+            } else if let Some(buffer) = self.made(resource).and_then(Made::buffer) {
+                let of = if matches!(resource.of.kind, Kind::Uniform(_)) { Bound::Uniform } else { Bound::Storage };
+                bound.push((resource.name(), of(buffer)));
             }
         }
         let name = step.pass_name();
@@ -304,9 +252,10 @@ impl Compiler<'_> {
     }
 
     fn image(&self, resource: Resource) -> Option<&Image> {
-        match (resource, &self.plan.distance) {
-            (Resource::NearestDistance, Some(lookup)) => self.resident.distance(lookup),
-            _ => self.targets.get(&resource).or_else(|| self.resident.image(resource)),
-        }
+        self.targets.get(&resource).or_else(|| self.made(resource).and_then(Made::image))
+    }
+
+    fn made(&self, resource: Resource) -> Option<&Made> {
+        self.own.get(&resource).or_else(|| self.resident.made(resource, self.plan.distance))
     }
 }

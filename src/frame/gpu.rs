@@ -13,11 +13,13 @@ use cpu_time::{ProcessTime, ThreadTime};
 
 use super::compile::{Compiled, CompiledStep, compile};
 use super::cpu::Counts;
+use super::made::Made;
 use super::resident::Resident;
 use crate::error::Result;
 use crate::part::resource::Resource;
 use crate::part::{Draw, Group, Work};
 use crate::plan::Plan;
+use crate::resource;
 use crate::scene::Scene;
 use crate::shared;
 use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Region, Scope};
@@ -133,7 +135,7 @@ impl GpuFrame {
     /// Bytes of each target and buffer of the frame.
     pub fn bytes(&self) -> Vec<(Resource, u64)> {
         let targets = self.compiled.targets.iter().map(|(r, i)| (*r, i.bytes()));
-        let buffer = self.compiled.marks_buffer.iter().map(|b| (Resource::MarksBuffer, b.bytes()));
+        let buffer = self.compiled.marks_buffer.iter().map(|b| (resource::MARKS_BUFFER, b.bytes()));
         targets.chain(buffer).collect()
     }
 
@@ -234,8 +236,8 @@ impl GpuFrame {
             Work::Clear(resource) => {
                 commands.clear_color(&self.compiled.targets[resource]);
             }
-            // Structures are built before frames.
-            Work::Dispatch(_) | Work::Unpack { .. } => {}
+            // They run before frames.
+            Work::Dispatch(_) | Work::Unpack { .. } | Work::Host(_) => {}
         }
         if let Some(pool) = times {
             commands.timestamp(pool, 2 * i as u32 + 1);
@@ -265,7 +267,7 @@ impl GpuFrame {
         if objects.pipeline.layout.push_constants > 0 {
             commands.push(&objects.pipeline.layout, bytemuck::bytes_of(&push));
         }
-        if let Some(vertices) = &self.compiled.vertices {
+        if let Some(vertices) = self.compiled.own.get(&resource::BOX).and_then(Made::buffer) {
             commands.vertices(vertices);
         }
         if let Some(pool) = statistics {
@@ -293,7 +295,7 @@ impl GpuFrame {
 
     /// Colour to depth, by way of the buffer.
     fn record_copy(&self, commands: &mut Commands, from: Resource, to: Resource) {
-        let Some(buffer) = &self.compiled.marks_buffer else { return };
+        let Some(buffer) = self.compiled.marks_buffer.as_ref().and_then(Made::buffer) else { return };
         let write = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
         let read = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
         let texels = self.texels();
@@ -365,7 +367,7 @@ impl GpuFrame {
     pub fn picture(&mut self) -> Result<Vec<[f32; 4]>> {
         let [width, height] = self.size.map(|n| n as usize);
         let mut pixels = vec![[0.0f32; 4]; width * height];
-        let Some(image) = self.compiled.targets.get(&Resource::Accumulated) else { return Ok(pixels) };
+        let Some(image) = self.compiled.targets.get(&resource::ACCUMULATED) else { return Ok(pixels) };
         let (texels, format) =
             super::upload::read_back(&self.device, image, Region::whole(image), self.accumulated_layout)?;
         self.accumulated_layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;

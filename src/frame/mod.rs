@@ -2,21 +2,21 @@
 
 pub mod background;
 pub mod build;
-pub mod bytes;
+pub mod choice;
 pub mod compile;
 pub mod cpu;
-pub mod distances;
 pub mod gpu;
+mod made;
 mod pipelines;
 pub mod resident;
 pub mod schedule;
 pub mod self_check;
 pub mod structures;
-pub mod texture;
 pub mod texture_unit;
 mod upload;
 
 pub use background::{Background, Served};
+pub use choice::plan_on;
 pub use cpu::{Counts, CpuFrame};
 pub use gpu::{EarlyEnd, FrameRun, GpuFrame, Measure};
 pub use resident::Resident;

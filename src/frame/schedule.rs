@@ -6,7 +6,9 @@ use std::collections::HashMap;
 use ash::vk;
 
 use crate::part::Step;
-use crate::part::resource::{Access, Resource, Usage};
+use crate::part::access::{Access, Usage};
+use crate::part::resource::Resource;
+use crate::resource;
 use crate::vulkan::{Attachment, Dependency, RenderPassInfo, Role, Scope};
 
 /// What runs around one step.
@@ -112,12 +114,12 @@ fn attachment(
     let usage_now = if first && usage == Usage::DepthTest { Usage::DepthWrite } else { usage };
     let read_only = matches!(usage_now, Usage::DepthTest | Usage::ColorKept);
     // The picture is read back after the last step.
-    let kept = used_later || resource == Resource::Accumulated;
+    let kept = used_later || resource == resource::ACCUMULATED;
     Attachment {
         name: resource.name().to_owned(),
         format,
         role: match usage {
-            _ if resource.is_depth() => Role::Depth,
+            _ if resource == resource::STORED => Role::Depth,
             Usage::ColorInput => Role::ColorInput,
             _ => Role::Color,
         },

@@ -13,10 +13,9 @@ use super::texture_unit;
 use crate::error::Result;
 use crate::glsl;
 use crate::method;
-use crate::part::Group;
 use crate::part::form::Form;
 use crate::part::rows::Method;
-use crate::plan;
+use crate::plan::{self, Choice};
 use crate::probe::correct::{Depth, faults};
 use crate::probe::run::missing;
 use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure, rig};
@@ -126,7 +125,7 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
             if *verdict != Verdict::Right {
                 continue;
             }
-            let run = run_form(&mut resident, device, scene, form, &rule.structures)?;
+            let run = run_form(&mut resident, device, scene, form)?;
             if let Some(difference) = rule.difference(&run) {
                 *verdict = Verdict::Wrong(difference);
             }
@@ -143,8 +142,7 @@ fn compile(device: &Device, scene: &Scene, resident: &Resident) -> Result<()> {
     let asked: Vec<Case> = forms.iter().flat_map(|form| cases(*form)).collect();
     glsl::prepare(rig::shaders(&asked).iter().chain([&texture_unit::shader()]))?;
     let plans = forms.iter().map(|form| plan::plan(scene, Some(*form))).collect::<Result<Vec<_>>>()?;
-    let drawn = plans.iter().flat_map(|plan| &plan.steps).filter(|step| step.group != Group::Structure);
-    resident.pipelines.prepare(drawn)
+    resident.pipelines.prepare(plans.iter().flat_map(|plan| plan.frame()))
 }
 
 /// A small scene with empty space, seen through many main passes.
@@ -166,15 +164,10 @@ struct Run {
     fragments: Counts,
 }
 
-fn run_form(
-    resident: &mut Resident,
-    device: &Arc<Device>,
-    scene: &Scene,
-    form: Form,
-    structures: &Structures,
-) -> Result<Run> {
-    let plan = plan::plan(scene, Some(form))?;
-    resident.prepare(scene, &plan, structures)?;
+/// A frame in that form; the host builds what it looks up, since builds are not what is checked.
+fn run_form(resident: &mut Resident, device: &Arc<Device>, scene: &Scene, form: Form) -> Result<Run> {
+    let plan = plan::plan_for(scene, Choice { form: Some(form), on_host: true, lookup: None })?;
+    resident.prepare(scene, &plan)?;
     let mut frame = GpuFrame::new(device, scene, &plan, resident, None)?;
     let run = frame.run(Measure::Counts { statistics: false })?;
     Ok(Run { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default() })
@@ -183,7 +176,6 @@ fn run_form(
 /// What every form has to give: the f64 twins' picture and counts.
 struct Rule {
     frame: cpu::CpuFrame,
-    structures: Structures,
 }
 
 impl Rule {
@@ -191,7 +183,7 @@ impl Rule {
         let plan = plan::plan(scene, method::papers_form(method::NN_OMNI.name()))?;
         let mut structures = Structures::default();
         structures.prepare(scene, &plan);
-        Ok(Self { frame: cpu::run(scene, &plan, &structures, sub_pixel_bits), structures })
+        Ok(Self { frame: cpu::run(scene, &plan, &structures, sub_pixel_bits) })
     }
 
     /// What a run has different from the rule, but for rays that f32 cannot decide.

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use cpu_time::ProcessTime;
 
-use super::texture::Texels;
 use crate::part::resource::Resource;
 use crate::plan::Plan;
+use crate::resource;
+use crate::resource::texels::Texels;
 use crate::scene::Scene;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
@@ -41,8 +42,8 @@ impl Structures {
             let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
             self.distances.push((lookup, timed(build, |d| d.bytes.len() as u64)));
         }
-        let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
-        if self.blocks.is_none() && reads(Resource::CellRange) {
+        let reads = |r: Resource| plan.frame().iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
+        if self.blocks.is_none() && reads(resource::block_ranges()) {
             self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
         }
     }

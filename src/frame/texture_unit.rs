@@ -7,11 +7,11 @@ use ash::vk;
 use glam::DVec3;
 
 use super::pipelines::Pipelines;
-use super::texture::texel_format;
 use super::upload;
 use crate::error::Result;
 use crate::glsl;
 use crate::math::interpolate::trilinear;
+use crate::resource::texels::texel_format;
 use crate::scene::TextureUnit;
 use crate::scene::texture::{FilterError, TexelFormat};
 use crate::vulkan::{

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::error::Result;
-use crate::part::resource::Usage;
+use crate::part::access::Usage;
 use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Image, Place, Region, Scope};
 
 const COPY_READ: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);

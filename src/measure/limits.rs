@@ -1,8 +1,9 @@
 //! Whether a scene fits, asked before anything large is made for it.
 
 use crate::error::{Error, Result};
-use crate::part::resource::Resource;
-use crate::plan::{Plan, bytes_per_pixel};
+use crate::part::resource::Kind;
+use crate::plan::Plan;
+use crate::resource;
 use crate::scene::Scene;
 use crate::vulkan::DeviceInfo;
 
@@ -22,15 +23,15 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
         return picture(format!("{} allows at most {width}x{height} pixels", info.name));
     }
     let resources = plan.resources();
-    let formats = scene.settings.formats();
-    let per_pixel: u64 = resources.iter().map(|r| bytes_per_pixel(*r, formats)).sum();
-    let (needed, there) = (per_pixel * plan.view.region.pixels(), info.memory_bytes);
+    let facts = plan.facts(scene);
+    let of_pixels = resources.iter().filter(|r| matches!(r.of.kind, Kind::Target(_) | Kind::Staging(_)));
+    let (needed, there) = (of_pixels.map(|r| r.bytes(&facts)).sum::<u64>(), info.memory_bytes);
     if needed > there {
         return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));
     }
     let volume = &scene.field.volume;
     let limit = info.max_image_3d;
-    if resources.contains(&Resource::Volume) && volume.dims.iter().any(|&n| n > limit as usize) {
+    if resources.contains(&resource::VOLUME) && volume.dims.iter().any(|&n| n > limit as usize) {
         return Err(Error::device(
             &volume.name,
             format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name),

@@ -16,14 +16,14 @@ use super::timing::Timing;
 use super::warnings::warnings;
 use crate::error::{Error, Result};
 use crate::frame::{
-    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, distances,
+    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, plan_on,
 };
 use crate::method;
 use crate::part::form::Form;
-use crate::part::resource::Resource;
 use crate::plan::{self, Plan};
+use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Builder, Cull, MethodSettings, Settings};
+use crate::scene::settings::{Cull, MethodSettings, Settings};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -51,7 +51,6 @@ pub struct Runner<'a> {
     pub(crate) checked: Option<&'a Checked>,
     pub(crate) scene: Scene,
     pub(crate) name: String,
-    structures: Structures,
     pub(crate) resident: Option<Resident>,
     /// The twin's frame, with and without early termination.
     references: BTreeMap<bool, CpuFrame>,
@@ -71,14 +70,7 @@ struct Entry {
 impl<'a> Runner<'a> {
     pub fn new(checked: Option<&'a Checked>, mut scene: Scene, name: String) -> Self {
         scene.unit = checked.map_or(scene.unit, |checked| checked.check.unit);
-        Self {
-            checked,
-            scene,
-            name,
-            structures: Structures::default(),
-            resident: checked.map(|c| Resident::new(&c.device)),
-            references: BTreeMap::new(),
-        }
+        Self { checked, scene, name, resident: checked.map(|c| Resident::new(&c.device)), references: BTreeMap::new() }
     }
 
     /// Measures the scene by each of `methods`. `progress` hears what is being done.
@@ -121,7 +113,7 @@ impl<'a> Runner<'a> {
     pub fn vary(&mut self, change: impl FnOnce(&mut Settings)) {
         change(&mut self.scene.settings);
         self.references.clear();
-        self.structures.table = None;
+        self.resident.iter_mut().for_each(Resident::forget_table);
     }
 
     pub fn scene(&self) -> &Scene {
@@ -146,7 +138,7 @@ impl<'a> Runner<'a> {
             let checked = self.checked.ok_or_else(no_device)?;
             let form = plan::form(&scene, checked.check.automatic(method.name))?;
             refuse_missing(checked, form)?;
-            let plan = plan::plan(&scene, form)?;
+            let plan = plan_on(&checked.device, &scene, form, None)?;
             limits::check_device(&checked.device.info, &scene, &plan)?;
             plan
         };
@@ -160,11 +152,7 @@ impl<'a> Runner<'a> {
             return prepare_cpu(scene, plan);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
-        self.structures.table = self.structures.table(&scene);
-        if builds_on_host(&checked.device, &scene, &plan) {
-            self.structures.prepare(&scene, &plan);
-        }
-        resident.prepare(&scene, &plan, &self.structures)?;
+        resident.prepare(&scene, &plan)?;
         let mut frame = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
         for _ in 0..effort.warmups {
             frame.run(Measure::Nothing)?;
@@ -187,7 +175,8 @@ impl<'a> Runner<'a> {
                 let rule = method::without_skipping(method);
                 scene.settings.method.name = rule.name();
                 let plan = plan::plan(&scene, rule.papers)?;
-                let structures = Structures { table: self.structures.table.clone(), ..Structures::default() };
+                let table = self.resident.as_mut().and_then(|resident| resident.table(&scene));
+                let structures = Structures { table, ..Structures::default() };
                 Ok(place.insert(cpu::run(&scene, &plan, &structures, bits)))
             }
         }
@@ -281,11 +270,12 @@ impl<'a> Runner<'a> {
 
     /// Time to build what the plan looks up.
     fn build_ms(&self, plan: &Plan) -> Option<Timing> {
-        self.resident.as_ref().and_then(|resident| resident.build_ms(plan)).map(Timing::once)
+        let built = self.resident.as_ref().and_then(|resident| resident.build_ms(plan));
+        built.map(|[ms, _]| Timing::once(ms))
     }
 
     fn structure_bytes(&self, plan: &Plan) -> u64 {
-        let structures = [Resource::NearestDistance, Resource::CellRange, Resource::BlockTable];
+        let structures = [resource::NEAREST_DISTANCE, resource::block_ranges(), resource::BLOCK_TABLE];
         let there = self.resident.iter().flat_map(|resident| resident.bytes(plan));
         there.filter(|(r, _)| structures.contains(r)).map(|(_, b)| b).sum()
     }
@@ -309,18 +299,6 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
     };
     let picture = single(&frame, scene.settings.image.size)?;
     Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
-}
-
-/// Whether the host builds the distances: where it is asked to, where the device has no room to, and on a device that is
-/// a CPU, for which the host is the faster (`cargo bench --bench build`).
-pub(crate) fn builds_on_host(device: &Device, scene: &Scene, plan: &Plan) -> bool {
-    let Some(lookup) = &plan.distance else { return false };
-    match scene.settings.method.build {
-        Builder::Host => true,
-        _ if !distances::fits(device, &scene.field, lookup) => true,
-        Builder::Device => false,
-        Builder::Auto => device.info.is_cpu(),
-    }
 }
 
 pub(crate) fn no_device() -> Error {

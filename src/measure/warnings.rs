@@ -1,8 +1,8 @@
 //! What may make a run's picture mislead: what its plan says, and what the picture itself shows.
 
 use super::picture::Picture;
-use crate::part::resource::Resource;
 use crate::plan::{self, Plan};
+use crate::resource;
 use crate::scene::Scene;
 
 /// The warnings of a run, a sentence each.
@@ -23,7 +23,7 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
 fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
     let settings = &scene.settings;
     let termination = settings.sampling.termination;
-    let ends = plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == Resource::Stored));
+    let ends = plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED));
     let seen = settings.image.background.iter().any(|channel| *channel != 0.0);
     let left = 100.0 * (1.0 - termination);
     (ends && seen && left > 0.0).then(|| {

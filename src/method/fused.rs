@@ -3,12 +3,12 @@
 use super::near_neighbor::by;
 use super::rows::{begin, decided, unswitched};
 use crate::feature::{DECISIONS, EARLY_ENDS, MARK_COPIES};
-use crate::part::resource::Resource;
 use crate::part::rows::{Context, Method};
 use crate::part::steps::Steps;
 use crate::pass::clear::clear;
 use crate::pass::fused::fused;
 use crate::pass::near_neighbor::near_neighbor;
+use crate::resource;
 use crate::scene::settings::Distance;
 
 const fn row(distance: Distance, name: &'static str, about: &'static str) -> Method {
@@ -33,7 +33,7 @@ fn steps(context: &Context, steps: &mut Steps) {
     steps.extend(context.has(&EARLY_ENDS).then(clear));
     steps.push(near_neighbor(context, 0, form));
     for pass in 0..context.passes {
-        decided(context, steps, pass, context.has(&MARK_COPIES).then_some(Resource::Marks));
+        decided(context, steps, pass, context.has(&MARK_COPIES).then_some(resource::MARKS));
         steps.push(fused(context, pass, form));
     }
 }

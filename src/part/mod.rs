@@ -2,6 +2,7 @@
 //!
 //! A pass file makes [`Step`]s; a method puts them in order; [`crate::plan`] asks it; [`crate::frame`] runs the list.
 
+pub mod access;
 pub mod form;
 pub mod resource;
 pub mod rows;
@@ -14,7 +15,8 @@ use ash::vk;
 use crate::glsl::Shader;
 use crate::shared::Slice;
 use crate::twin::TwinPass;
-use resource::{Access, Resource};
+use access::Access;
+use resource::Resource;
 
 /// One line of a plan: a pass with everything it needs to run.
 #[derive(Clone, Debug)]
@@ -53,12 +55,15 @@ pub enum Group {
     Copy,
     /// Counting the rays that are left.
     Alive,
-    /// Structures, built on the compute queue before the frame.
+    /// Structures, built before the frame on the compute queue or on the host.
     Structure,
+    /// What the host has, before what reads it.
+    Upload,
 }
 
 impl Group {
-    pub const ALL: [Self; 6] = [Self::Structure, Self::Setup, Self::Main, Self::Intermediate, Self::Copy, Self::Alive];
+    pub const ALL: [Self; 7] =
+        [Self::Upload, Self::Structure, Self::Setup, Self::Main, Self::Intermediate, Self::Copy, Self::Alive];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -68,6 +73,7 @@ impl Group {
             Self::Intermediate => "intermediate",
             Self::Copy => "copy",
             Self::Alive => "alive",
+            Self::Upload => "upload",
         }
     }
 }
@@ -89,6 +95,8 @@ pub enum Work {
         from: Resource,
         to: Resource,
     },
+    /// The host makes the bytes of a resource, and they are uploaded.
+    Host(Resource),
 }
 
 impl Work {
@@ -97,7 +105,7 @@ impl Work {
         match self {
             Self::Draw(draw) => draw.shader.as_ref(),
             Self::Dispatch(dispatch) => Some(&dispatch.shader),
-            Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } => None,
+            Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } | Self::Host(_) => None,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::hash::Hash;
 use std::sync::Arc;
 
-use super::resource::Access;
+use super::access::Access;
 use super::{Constant, Step, Work};
 use crate::glsl::Shader;
 

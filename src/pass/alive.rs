@@ -2,8 +2,10 @@
 
 use ash::vk;
 
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
+use crate::part::resource::Resource;
 use crate::part::{DepthTest, Draw, Faces, Group, Step, Work};
+use crate::resource;
 
 /// Dead rays hold 1.0; sections and skipped segments stay at or below 0.5.
 const ALIVE: f32 = 0.75;
@@ -13,7 +15,7 @@ const ALIVE: f32 = 0.75;
 /// `beside`: a colour target that is attached for nothing. Mesa 26's lavapipe forgets that attachments blend each in its
 /// own way once a step without colour attachments was drawn: marks beside a blended RES would be blended too, and lost.
 pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
-    let mut accesses = vec![Usage::Vertices.of(Resource::Box), Usage::DepthTest.of(Resource::Stored)];
+    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::DepthTest.of(resource::STORED)];
     accesses.extend(beside.map(|target| Usage::ColorKept.of(target)));
     Step {
         name: format!("alive #{pass}"),

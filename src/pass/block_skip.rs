@@ -4,22 +4,23 @@ use ash::vk;
 
 use super::{constants, cull};
 use crate::feature::{self, EARLY_ENDS};
+use crate::part::access::Usage;
 use crate::part::form::Form;
-use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
+use crate::resource;
 use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
-        Usage::Vertices.of(Resource::Box),
-        Usage::Sampled.of(Resource::Frame),
-        Usage::Sampled.of(Resource::Entry),
-        Usage::Sampled.of(Resource::Direction),
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
     ];
     accesses.extend(feature::reads(context, Hook::Decide));
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     let mut draw = Draw::plain(Faces::Front, "block_skip.frag", twin::block_skip::block_skip);
     draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;

@@ -2,8 +2,9 @@
 
 use ash::vk;
 
-use crate::part::resource::{Access, Resource, Usage};
+use crate::part::access::{Access, Usage};
 use crate::part::{DepthTest, Draw};
+use crate::resource;
 use crate::scene::settings::{Cull, Mark};
 
 /// A box drawn in the upper half of the depth range, as in the thesis' own form [Thesis §5.3].
@@ -16,16 +17,16 @@ pub fn cull_by_stored(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, b
         // ALWAYS rather than off: with the depth test off one driver's occlusion counts ignore the bounds.
         Cull::Bounds | Cull::Auto => {
             draw.test = DepthTest { compare: Some(vk::CompareOp::ALWAYS), write: false, bounds: true };
-            accesses.push(Usage::DepthTest.of(Resource::Stored));
+            accesses.push(Usage::DepthTest.of(resource::STORED));
         }
         Cull::Ztest => {
             draw.depth = bound;
             draw.test = DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false };
-            accesses.push(Usage::DepthTest.of(Resource::Stored));
+            accesses.push(Usage::DepthTest.of(resource::STORED));
         }
         Cull::Discard => {
             draw.define(["CULL_DISCARD"]);
-            accesses.push(Usage::Sampled.of(Resource::Stored));
+            accesses.push(Usage::Sampled.of(resource::STORED));
         }
     }
 }
@@ -47,11 +48,11 @@ pub fn mark_into(draw: &mut Draw, accesses: &mut Vec<Access>, mark: Mark, compar
         Mark::FragdepthAny => "MARK_FRAGDEPTH_ANY",
     }]);
     if mark == Mark::Copy {
-        accesses.push(Usage::Color.of(Resource::Marks));
+        accesses.push(Usage::Color.of(resource::MARKS));
         return;
     }
-    accesses.retain(|a| a.resource != Resource::Stored);
-    accesses.push(Usage::DepthWrite.of(Resource::Stored));
+    accesses.retain(|a| a.resource != resource::STORED);
+    accesses.push(Usage::DepthWrite.of(resource::STORED));
     draw.depth = if mark == Mark::FragdepthAny { UPPER_HALF } else { 1.0 };
     draw.test = DepthTest { compare: Some(compare), write: true, bounds: draw.test.bounds };
 }

@@ -1,7 +1,8 @@
 //! Ray direction determination [KW03 §2.1, Thesis §5.2.2].
 
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
 use crate::part::{Draw, Faces, Group, Step, Work};
+use crate::resource;
 use crate::twin;
 
 pub fn direction() -> Step {
@@ -10,10 +11,10 @@ pub fn direction() -> Step {
         group: Group::Setup,
         pass: 0,
         accesses: vec![
-            Usage::Vertices.of(Resource::Box),
-            Usage::Sampled.of(Resource::Frame),
-            Usage::Sampled.of(Resource::Entry),
-            Usage::Color.of(Resource::Direction),
+            Usage::Vertices.of(resource::BOX),
+            Usage::Sampled.of(resource::FRAME),
+            Usage::Sampled.of(resource::ENTRY),
+            Usage::Color.of(resource::DIRECTION),
         ]
         .into(),
         work: Work::Draw(Draw::plain(Faces::Back, "direction.frag", twin::direction::direction)),

@@ -1,7 +1,8 @@
 //! Entry point determination [KW03 §2.1, Thesis §5.2.2].
 
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
 use crate::part::{Draw, Faces, Group, Step, Work};
+use crate::resource;
 use crate::twin;
 
 pub fn entry() -> Step {
@@ -10,9 +11,9 @@ pub fn entry() -> Step {
         group: Group::Setup,
         pass: 0,
         accesses: vec![
-            Usage::Vertices.of(Resource::Box),
-            Usage::Sampled.of(Resource::Frame),
-            Usage::Color.of(Resource::Entry),
+            Usage::Vertices.of(resource::BOX),
+            Usage::Sampled.of(resource::FRAME),
+            Usage::Color.of(resource::ENTRY),
         ]
         .into(),
         work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", twin::entry::entry)),

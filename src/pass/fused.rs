@@ -2,10 +2,11 @@
 
 use super::{constants, cull};
 use crate::feature::{self, DISTANCES, EARLY_ENDS};
+use crate::part::access::Usage;
 use crate::part::form::Form;
-use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
+use crate::resource;
 use crate::twin;
 use crate::twin::section::section_end;
 
@@ -13,18 +14,18 @@ use crate::twin::section::section_end;
 /// nothing.
 pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
-        Usage::Vertices.of(Resource::Box),
-        Usage::Sampled.of(Resource::Frame),
-        Usage::Sampled.of(Resource::Entry),
-        Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::Volume),
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
+        Usage::Sampled.of(resource::VOLUME),
     ];
     if context.has(&DISTANCES) {
-        accesses.push(Usage::Sampled.of(Resource::NearestDistance));
+        accesses.push(Usage::Sampled.of(resource::NEAREST_DISTANCE));
     }
     // Its own opacity is read where a ray may end.
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
-    accesses.push(drawn.of(Resource::Accumulated));
+    accesses.push(drawn.of(resource::ACCUMULATED));
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(Faces::Front, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Sample));

@@ -2,21 +2,22 @@
 
 use super::{constants, cull};
 use crate::feature;
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
+use crate::resource;
 use crate::scene::settings::Cull;
 use crate::twin;
 
 /// Main pass `pass`, culled by `culled` = (how, greatest stored depth), or run for every fragment.
 pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
     let mut accesses = vec![
-        Usage::Vertices.of(Resource::Box),
-        Usage::Sampled.of(Resource::Frame),
-        Usage::Sampled.of(Resource::Entry),
-        Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::Volume),
-        Usage::Color.of(Resource::Accumulated),
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
+        Usage::Sampled.of(resource::VOLUME),
+        Usage::Color.of(resource::ACCUMULATED),
     ];
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(Faces::Front, "main_pass.frag", twin::main_pass::main_pass);

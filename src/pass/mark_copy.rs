@@ -1,8 +1,9 @@
 //! Marks to the depth buffer: colour image -> buffer -> depth image, since Vulkan copies between the two kinds
 //! only by way of a buffer.
 
-use crate::part::resource::{Resource, Usage};
+use crate::part::access::Usage;
 use crate::part::{Group, Step, Work};
+use crate::resource;
 
 /// Copies the marks that decide who takes part in main pass `pass`.
 pub fn mark_copy(pass: u32) -> Step {
@@ -10,7 +11,7 @@ pub fn mark_copy(pass: u32) -> Step {
         name: format!("mark_copy #{pass}"),
         group: Group::Copy,
         pass,
-        accesses: vec![Usage::CopySource.of(Resource::Marks), Usage::CopyTarget.of(Resource::Stored)].into(),
-        work: Work::Copy { from: Resource::Marks, by: Resource::MarksBuffer, to: Resource::Stored },
+        accesses: vec![Usage::CopySource.of(resource::MARKS), Usage::CopyTarget.of(resource::STORED)].into(),
+        work: Work::Copy { from: resource::MARKS, by: resource::MARKS_BUFFER, to: resource::STORED },
     }
 }

@@ -2,10 +2,11 @@
 
 use super::{constants, cull};
 use crate::feature::{self, EARLY_ENDS};
+use crate::part::access::Usage;
 use crate::part::form::Form;
-use crate::part::resource::{Resource, Usage};
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Faces, Group, Step};
+use crate::resource;
 use crate::scene::settings::Mark;
 use crate::twin;
 use crate::twin::section::section_end;
@@ -13,12 +14,12 @@ use crate::twin::section::section_end;
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
-        Usage::Vertices.of(Resource::Box),
-        Usage::Sampled.of(Resource::Frame),
-        Usage::Sampled.of(Resource::Entry),
-        Usage::Sampled.of(Resource::Direction),
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
     ];
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(Resource::Accumulated)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;

@@ -3,20 +3,21 @@
 use ash::vk;
 
 use super::{constants, cull};
+use crate::part::access::Usage;
 use crate::part::form::Form;
-use crate::part::resource::{Resource, Usage};
 use crate::part::rows::Context;
 use crate::part::{Draw, Faces, Group, Step};
+use crate::resource;
 use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
-        Usage::Vertices.of(Resource::Box),
-        Usage::Sampled.of(Resource::Frame),
-        Usage::Sampled.of(Resource::Entry),
-        Usage::Sampled.of(Resource::Direction),
-        Usage::Sampled.of(Resource::Accumulated),
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
+        Usage::Sampled.of(resource::ACCUMULATED),
     ];
     let mut draw = Draw::plain(Faces::Front, "termination.frag", twin::termination::termination);
     draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);

@@ -1,30 +1,28 @@
 //! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
 
+pub mod builds;
 mod precision;
 mod text;
 mod warnings;
 
 pub use warnings::{notes, warnings};
 
-use std::collections::BTreeSet;
-
 use crate::error::{Error, Result};
-use crate::feature::{self, BLOCK_RANGES, DISTANCES, FEATURES};
+use crate::feature::{self, DISTANCES, FEATURES};
 use crate::method;
 use crate::part::form::Form;
-use crate::part::resource::Resource;
+use crate::part::resource::{Facts, Resource};
 use crate::part::rows::{Context, Feature, Method, Why};
 use crate::part::steps::Steps;
 use crate::part::{Step, Work};
-use crate::pass::build;
-use crate::scene::settings::{Accumulate, Cull, DepthFormat, Formats, Mark};
+use crate::resource;
+use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
 use crate::scene::{Region, Scene};
 use crate::structure::Lookup;
-use crate::structure::blocks::BLOCK;
-use crate::structure::grid::Grid;
 use crate::twin::section::most_sections;
+use builds::{Build, Builds};
 
 /// The frame of one scene, ready to be run.
 #[derive(Clone, Debug)]
@@ -41,19 +39,51 @@ pub struct Plan {
     pub texture: Option<TextureChoice>,
     /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation.
     pub pixel_error: f64,
+    /// Uploads and builds, then the frame itself.
     pub steps: Vec<Step>,
+    /// Which steps make what, in order; those that follow are the frame.
+    pub builds: Vec<Build>,
     pub left_out: Vec<LeftOut>,
 }
 
+/// What a plan is made for, besides its scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choice {
+    /// Cull and mark, where the method culls at all.
+    pub form: Option<Form>,
+    /// Whether the host builds what it has a form for; it does where the scene asks for that.
+    pub on_host: bool,
+    /// The distances looked up, where they are not those of the method.
+    pub lookup: Option<Lookup>,
+}
+
 impl Plan {
-    /// All that steps read, write or go through, each once.
-    pub fn resources(&self) -> BTreeSet<Resource> {
+    /// The steps of the frame, without what is there before.
+    pub fn frame(&self) -> &[Step] {
+        &self.steps[self.builds.last().map_or(0, |build| build.steps.end)..]
+    }
+
+    /// What sizes and contents of the plan's resources follow from.
+    pub fn facts<'a>(&'a self, scene: &'a Scene) -> Facts<'a> {
+        Facts { scene, view: &self.view, passes: self.passes, lookup: self.distance, table: None }
+    }
+
+    /// All that steps read, write or go through, each once, in the order of lists.
+    pub fn resources(&self) -> Vec<Resource> {
+        self.resources_of(&self.steps)
+    }
+
+    /// All that some of the plan's steps read, write or go through, each once, in the order of lists.
+    pub fn resources_of(&self, steps: &[Step]) -> Vec<Resource> {
         let through = |step: &Step| match step.work {
             Work::Copy { by, .. } => Some(by),
             _ => None,
         };
-        let used = self.steps.iter().flat_map(|step| step.accesses.iter().map(|access| access.resource));
-        used.chain(self.steps.iter().filter_map(through)).collect()
+        let used = steps.iter().flat_map(|step| step.accesses.iter().map(|access| access.resource));
+        let mut found: Vec<Resource> = used.chain(steps.iter().filter_map(through)).collect();
+        found.sort_by_key(|resource| resource::order(*resource));
+        found.dedup();
+        found
     }
 }
 
@@ -106,29 +136,46 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
     row.check(Form { cull, mark }).map(Some)
 }
 
-/// Plans the frame of a scene in the given form.
+/// Plans the frame of a scene in the given form, for a device of which nothing is known.
+///
+/// # Errors
+/// As [`plan_for`].
+pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
+    plan_for(scene, Choice { form, ..Choice::default() })
+}
+
+/// Plans the frame of a scene.
 ///
 /// # Errors
 /// When the camera is not one, the view needs more main passes than can be, or the scene cannot be classified as it asks
 /// for.
-pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
+pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     crate::truth::preintegrated::check(scene)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view);
     check_passes(scene, method, passes)?;
-    let context = Context::new(scene, &view, method, form, passes);
-    let (steps, left_out) = match passes {
+    let context = Context::new(scene, &view, method, choice.form, passes);
+    let (frame, left_out) = match passes {
         0 => (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")]),
-        _ => (steps(&context), left_out(&context)),
+        _ => (frame(&context), left_out(&context)),
     };
-    let distance = context.lookup().filter(|_| passes > 0 && context.has(&DISTANCES));
+    let looks_up = passes > 0 && context.has(&DISTANCES);
+    let distance = choice.lookup.or_else(|| context.lookup()).filter(|_| looks_up);
+    let facts = Facts { scene, view: &view, passes, lookup: distance, table: None };
+    // The twins of a method without a device read no resources but each other's.
+    let on_host = choice.on_host || scene.settings.method.build == Builder::Host;
+    let Builds { mut steps, list: builds } = match method.on_device {
+        true => Builds::of(&facts, on_host, &builds::reads(&frame)),
+        false => Builds::default(),
+    };
+    steps.extend(frame);
     let texture = (method.on_device && passes > 0).then(|| TextureChoice::of(scene));
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
     let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, ends);
-    Ok(Plan { view, method, passes, form, distance, texture, pixel_error, steps, left_out })
+    Ok(Plan { view, method, passes, form: choice.form, distance, texture, pixel_error, steps, builds, left_out })
 }
 
 /// N: main passes of a view.
@@ -143,16 +190,9 @@ fn passes(scene: &Scene, view: &View) -> u32 {
     if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed }
 }
 
-/// The method's steps, behind those that build what they read.
-fn steps(context: &Context) -> Vec<Step> {
-    let field = &context.scene.field;
+/// The method's steps.
+fn frame(context: &Context) -> Vec<Step> {
     let mut steps = Steps::default();
-    if context.has(&BLOCK_RANGES) {
-        steps.push(build::cell_range(&Grid::new(field, BLOCK as u32)));
-    }
-    if let Some(lookup) = context.lookup().filter(|_| context.has(&DISTANCES)) {
-        steps.extend(build::steps(field, &lookup));
-    }
     (context.method.steps)(context, &mut steps);
     steps.into_list()
 }
@@ -220,21 +260,4 @@ fn check_passes(scene: &Scene, method: &Method, passes: u32) -> Result<()> {
 fn whole_diagonal(scene: &Scene) -> u32 {
     let step = scene.settings.sampling.step * scene.field.finest();
     (scene.field.extent().length() / step).ceil() as u32
-}
-
-/// Bytes a pixel of a target takes.
-pub fn bytes_per_pixel(resource: Resource, formats: Formats) -> u64 {
-    match resource {
-        Resource::Entry | Resource::Direction => 16,
-        Resource::Accumulated => match formats.accumulate {
-            Accumulate::Rgba32f => 16,
-            Accumulate::Rgba16f => 8,
-            Accumulate::Rgba8 => 4,
-        },
-        Resource::Stored | Resource::Marks | Resource::MarksBuffer => match formats.depth {
-            DepthFormat::D32 | DepthFormat::D24 => 4,
-            DepthFormat::D16 => 2,
-        },
-        _ => 0,
-    }
 }

@@ -1,7 +1,7 @@
 //! A plan as text, one line a step: it is read by people and held by tests.
 
 use super::Plan;
-use crate::part::resource::{Access, Usage};
+use crate::part::access::{Access, Usage};
 use crate::part::{Step, Work};
 use crate::scene::texture::Within;
 
@@ -41,6 +41,7 @@ fn line(step: &Step) -> String {
         }
         Work::Copy { .. } | Work::Clear(_) => ("transfer", String::new()),
         Work::Dispatch(_) | Work::Unpack { .. } => ("compute", String::new()),
+        Work::Host(_) => ("host", String::new()),
     };
     let (reads, writes) = (names(Usage::reads), names(Usage::writes));
     let arrow = match (reads.is_empty(), writes.is_empty()) {

@@ -299,8 +299,9 @@ impl Commands {
         }
     }
 
-    /// Groups the commands up to [`Commands::label_end`] under a name, in debuggers.
+    /// Groups the commands up to [`Commands::label_end`] under a name, in debuggers and traces ([`Device::begin_trace`]).
     pub fn label_begin(&mut self, name: &str) {
+        self.device.trace(name);
         if let Some(debug) = &self.device.debug {
             let name = c_text(name);
             let label = vk::DebugUtilsLabelEXT::default().label_name(&name);

@@ -32,6 +32,8 @@ pub struct Device {
     pub(super) debug: Option<ext::debug_utils::Device>,
     pub(super) cache: vk::PipelineCache,
     pub(super) marks: ManuallyDrop<Marks>,
+    /// Names since a trace was begun; none where nobody asked for one.
+    trace: Mutex<Option<Vec<String>>>,
     allocator: ManuallyDrop<Mutex<Allocator>>,
     instance: Arc<Instance>,
 }
@@ -114,6 +116,7 @@ impl Device {
             debug: instance.debug_utils().then(|| ext::debug_utils::Device::new(raw_instance, &raw)),
             cache,
             marks: ManuallyDrop::new(marks),
+            trace: Mutex::new(None),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             instance: instance.clone(),
             raw,
@@ -149,6 +152,24 @@ impl Device {
         // SAFETY: the physical device belongs to the instance that is held.
         let properties = unsafe { self.instance.raw.get_physical_device_format_properties(self.info.physical, format) };
         properties.optimal_tiling_features.contains(features)
+    }
+
+    /// Begins to note the names of all that is labelled from now on; what was noted before is forgotten.
+    pub fn begin_trace(&self) {
+        *self.trace.lock().unwrap_or_else(PoisonError::into_inner) = Some(Vec::new());
+    }
+
+    /// Notes a name, where a trace was begun; once, where it is that of the last one.
+    pub fn trace(&self, name: &str) {
+        let mut trace = self.trace.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(names) = trace.as_mut().filter(|names| names.last().is_none_or(|last| last != name)) {
+            names.push(name.to_owned());
+        }
+    }
+
+    /// Ends a trace: the names in their order.
+    pub fn end_trace(&self) -> Vec<String> {
+        self.trace.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
     }
 
     /// The names of the steps that [`Commands::step`](super::Commands::step) counts, for the error of a lost device.

@@ -7,6 +7,7 @@ use depthleap::frame::{Resident, Structures};
 use depthleap::method;
 use depthleap::plan::plan;
 use depthleap::read;
+use depthleap::resource;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::{CELLS, Filter, MethodName, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
@@ -83,7 +84,7 @@ fn agree(device: &Arc<Device>, scene: &Scene) {
                 scene.settings.method.cell = cell;
                 let plan = plan(&scene, method::papers_form(method)).expect("a plan");
                 let Some(lookup) = plan.distance else { continue };
-                resident.prepare(&scene, &plan, &Structures::default()).expect("room on the device");
+                resident.prepare(&scene, &plan).expect("room on the device");
                 let found = resident.read_distances(&lookup).expect("a copy").expect("distances were built");
                 let mut host = Structures::default();
                 host.prepare(&scene, &plan);
@@ -140,8 +141,8 @@ fn another_transfer_function_keeps_the_ranges(device: &Arc<Device>) {
         scene.transfer = TransferFunction::preset(tf, 1.0).expect("built in").expect("sound");
         resident.forget_transfer();
         assert!(resident.distance(&lookup).is_none());
-        assert_eq!(resident.ranges_are_there(4), !found.is_empty(), "ranges do not depend on the function");
-        resident.prepare(&scene, &plan, &Structures::default()).expect("room on the device");
+        assert_eq!(resident.has(resource::CELL_RANGE.at(4)), !found.is_empty(), "ranges do not depend on the function");
+        resident.prepare(&scene, &plan).expect("room on the device");
         found.push(resident.read_distances(&lookup).expect("a copy").expect("distances"));
     }
     assert_eq!(found[0], found[2]);

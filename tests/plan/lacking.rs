@@ -3,6 +3,7 @@
 use depthleap::method;
 use depthleap::part::Group;
 use depthleap::part::resource::Resource;
+use depthleap::resource;
 use depthleap::scene::Settings;
 
 /// What a plan has less for it.
@@ -39,21 +40,21 @@ fn preset(s: &mut Settings, name: &str) {
 }
 
 pub const SCENES: [(&str, Change, Less); 20] = [
-    ("no colours", |s| preset(s, "ramp"), Less::Resource(Resource::Transfer)),
+    ("no colours", |s| preset(s, "ramp"), Less::Resource(resource::TRANSFER)),
     (
         "no colours, fused",
         |s| (preset(s, "ramp"), s.method.name = method::NN_OMNI_FUSED.name()).1,
-        Less::Resource(Resource::Transfer),
+        Less::Resource(resource::TRANSFER),
     ),
     (
         "no colours, without skipping",
         |s| (preset(s, "surface"), s.method.name = method::RC.name()).1,
-        Less::Resource(Resource::Transfer),
+        Less::Resource(resource::TRANSFER),
     ),
     (
         "nothing to skip",
         |s| s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]),
-        Less::Resource(Resource::NearestDistance),
+        Less::Resource(resource::NEAREST_DISTANCE),
     ),
     (
         "nothing to skip, fused",
@@ -61,7 +62,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
             s.method.name = method::NN_OMNI_FUSED.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
-        Less::Resource(Resource::NearestDistance),
+        Less::Resource(resource::NEAREST_DISTANCE),
     ),
     (
         "nothing to skip, octants",
@@ -69,7 +70,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
             s.method.name = method::NN_DIRECTIONAL.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
-        Less::Resource(Resource::NearestDistance),
+        Less::Resource(resource::NEAREST_DISTANCE),
     ),
     (
         "no empty blocks",
@@ -77,7 +78,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
             s.method.name = method::RC_BLOCK.name();
             s.transfer.points = Some(vec![[0.5, 0.9, 0.5, 0.1, 0.3]]);
         },
-        Less::Resource(Resource::CellRange),
+        Less::Resource(resource::block_ranges()),
     ),
     ("nothing to skip and no ray that ends", |s| preset(s, "haze"), Less::Group(Group::Intermediate)),
     (
@@ -93,7 +94,7 @@ pub const SCENES: [(&str, Change, Less); 20] = [
     (
         "no ray that ends",
         |s| (s.method.name = method::RC_ERT.name(), s.sampling.termination = 1.0).1,
-        Less::Resource(Resource::Stored),
+        Less::Resource(resource::STORED),
     ),
     (
         "no opacity to end a ray",

@@ -3,10 +3,10 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use crate::error::Result;
-use crate::frame::{Background, GpuFrame, Measure, Structures};
+use crate::frame::{Background, GpuFrame, Measure, plan_on};
 use crate::measure::Measured;
 use crate::measure::record::OrbitFrame;
-use crate::measure::runner::{Runner, builds_on_host, no_device};
+use crate::measure::runner::{Runner, no_device};
 use crate::plan;
 use crate::scene::settings::MethodSettings;
 use crate::scene::{Camera, Scene};
@@ -62,18 +62,14 @@ pub fn orbit(runner: &mut Runner, method: &MethodSettings, count: usize, progres
     for frame in 0..count {
         let Some(scene) = scene_of(frame) else { break };
         progress(&format!("{}: {}, frame {} of {count}", runner.name, method.name.name(), frame + 1));
-        let mut plan = plan::plan(&scene, form)?;
+        let mut plan = plan_on(&checked.device, &scene, form, None)?;
         // Nothing is built where the plan looks nothing up.
         let looks_up = plan.distance.is_some();
         let served = if looks_up { background.serve(frame, &scene, resident)? } else { None };
-        plan.distance = served.map(|served| served.lookup);
-        let mut structures = Structures::default();
-        if builds_on_host(&checked.device, &scene, &plan)
-            && plan.distance.is_some_and(|lookup| resident.distance(&lookup).is_none())
-        {
-            structures.prepare(&scene, &plan);
+        if let Some(served) = served.filter(|served| plan.distance != Some(served.lookup)) {
+            plan = plan_on(&checked.device, &scene, form, Some(served.lookup))?;
         }
-        resident.prepare(&scene, &plan, &structures)?;
+        resident.prepare(&scene, &plan)?;
         let mut gpu = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
         let counts = gpu.run(Measure::Counts { statistics: false })?.fragments.unwrap_or_default();
         let picture = gpu.picture()?;

@@ -1,35 +1,42 @@
 //! Distances along bundles of rays: `optimal` and `cone` [Thesis §5.3.1, §5.7].
 
-use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
+use super::{dispatch, slice, unpack};
 use crate::glsl::Shader;
 use crate::part::Step;
 use crate::part::resource::Resource;
+use crate::resource;
+use crate::resource::{words_of_bits, words_of_bytes};
 use crate::shared::Slice;
 use crate::structure::bundle::SCALES;
 use crate::structure::grid::Grid;
 
-/// Interesting cells among 2^3 and 4^3, from each cell on. Depends on volume and transfer function.
-pub fn widen(grid: &Grid) -> Vec<Step> {
-    let widen = |from, to: Resource, by: u32| {
-        let mut slice = slice(grid, words_of_bits(grid));
-        slice.reach = by;
-        let (reads, writes) = ([("narrow", from)], [("wide", to)]);
-        dispatch(to.name().to_owned(), Shader::new("structure/widen.comp", []), &reads, &writes, slice, 32)
-    };
-    vec![widen(Resource::Interesting, Resource::Wide2, 1), widen(Resource::Wide2, Resource::Wide4, 2)]
+/// Interesting cells among 2^3, from each cell on. Depends on volume and transfer function.
+pub fn widen_2(grid: &Grid) -> Step {
+    widen(grid, resource::INTERESTING, resource::WIDE_2, 1)
+}
+
+/// Interesting cells among 4^3, from each cell on.
+pub fn widen_4(grid: &Grid) -> Step {
+    widen(grid, resource::WIDE_2, resource::WIDE_4, 2)
+}
+
+fn widen(grid: &Grid, from: Resource, to: Resource, by: u32) -> Step {
+    let slice = Slice { reach: by, ..slice(grid, words_of_bits(grid)) };
+    let shader = Shader::new("structure/widen.comp", []);
+    dispatch(to.name().to_owned(), shader, &[("narrow", from)], &[("wide", to)], slice, 32)
 }
 
 /// For the rays of a view, given by the uniform buffer `bundle`: boxes of several cells first.
 pub fn bundle(grid: &Grid) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut larger = None;
-    for (scale, to) in SCALES.into_iter().zip([Resource::Boxes4, Resource::Boxes2, Resource::DistanceBytes]) {
+    for (scale, to) in SCALES.into_iter().zip([resource::BOXES_4, resource::BOXES_2, resource::DISTANCE_BYTES]) {
         let mut reads = vec![
-            ("bundle", Resource::Bundle),
-            ("omni_distance", Resource::OmniDistance),
-            ("interesting", Resource::Interesting),
-            ("wide_2", Resource::Wide2),
-            ("wide_4", Resource::Wide4),
+            ("bundle", resource::BUNDLE),
+            ("omni_distance", resource::OMNI_DISTANCE),
+            ("interesting", resource::INTERESTING),
+            ("wide_2", resource::WIDE_2),
+            ("wide_4", resource::WIDE_4),
         ];
         reads.extend(larger.map(|larger| ("larger", larger)));
         let shader = Shader::new("structure/bundle.comp", larger.map(|_| "LARGER"));
@@ -39,6 +46,6 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
         steps.push(dispatch(format!("bundle.{scale}"), shader, &reads, &[("distance_bytes", to)], slice, 64));
         larger = Some(to);
     }
-    steps.push(unpack(Resource::NearestDistance));
+    steps.push(unpack(resource::NEAREST_DISTANCE));
     steps
 }

@@ -1,9 +1,11 @@
 //! Exact Euclidean distance transforms, axis by axis [Thesis §5.3.1]: in any direction, or for each octant.
 
-use super::{dispatch, slice, unpack, words_of_bits, words_of_bytes};
+use super::{dispatch, slice, unpack};
 use crate::glsl::Shader;
 use crate::part::resource::Resource;
 use crate::part::{Step, Work};
+use crate::resource;
+use crate::resource::{words_of_bits, words_of_bytes};
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
 use crate::structure::square::{reach, weight};
@@ -14,7 +16,7 @@ const ONE_SIDED: Option<&str> = Some("ONE_SIDED");
 /// `omni`: from the interesting cells to the texture `to`.
 pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
     // Each column is read before it is written, so one buffer does.
-    let squares = Resource::Squares;
+    let squares = resource::SQUARES;
     vec![
         first_axis(grid, "distance_x".to_owned(), None, squares, 0),
         scan(grid, "distance_y".to_owned(), None, 1, [squares, squares], 0),
@@ -22,8 +24,8 @@ pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
         dispatch(
             "distance_pack".to_owned(),
             Shader::new("structure/distance_pack.comp", []),
-            &[("interesting", Resource::Interesting), ("squares", squares)],
-            &[("distance_bytes", Resource::DistanceBytes)],
+            &[("interesting", resource::INTERESTING), ("squares", squares)],
+            &[("distance_bytes", resource::DISTANCE_BYTES)],
             slice(grid, words_of_bytes(grid.cells)),
             4,
         ),
@@ -36,17 +38,17 @@ pub fn directional(grid: &Grid) -> Vec<Step> {
     let mut steps = Vec::new();
     let name = |axis: &str, octant: usize| format!("distance_{axis}.{octant}");
     for x in 0..2 {
-        steps.push(first_axis(grid, name("x", x), ONE_SIDED, Resource::Squares, x));
+        steps.push(first_axis(grid, name("x", x), ONE_SIDED, resource::SQUARES, x));
         for xy in [x, x | 2] {
-            let through = [Resource::Squares, Resource::SquaresAfter];
+            let through = [resource::SQUARES, resource::SQUARES_AFTER];
             steps.push(scan(grid, name("y", xy), ONE_SIDED, 1, through, xy));
             for octant in [xy, xy | 4] {
-                let through = [Resource::SquaresAfter, Resource::DistanceBytes];
+                let through = [resource::SQUARES_AFTER, resource::DISTANCE_BYTES];
                 steps.push(scan(grid, name("z", octant), Some("OCTANT"), 2, through, octant));
             }
         }
     }
-    steps.push(unpack(Resource::NearestDistance));
+    steps.push(unpack(resource::NEAREST_DISTANCE));
     steps
 }
 
@@ -59,7 +61,7 @@ fn first_axis(grid: &Grid, name: String, define: Option<&'static str>, squares: 
     dispatch(
         name,
         Shader::new("structure/distance_x.comp", define),
-        &[("interesting", Resource::Interesting)],
+        &[("interesting", resource::INTERESTING)],
         &[("squares", squares)],
         along(grid, 0, words_of_bits(grid), octant),
         32,
@@ -82,8 +84,8 @@ fn scan(
         Slice { inner: inner as u32, outer: outer as u32, stride: stride as u32, ..along(grid, axis, columns, octant) };
     let [from, to] = through;
     let (mut reads, mut writes) = (vec![("squares", from)], "squares_after");
-    if to == Resource::DistanceBytes {
-        reads.push(("interesting", Resource::Interesting));
+    if to == resource::DISTANCE_BYTES {
+        reads.push(("interesting", resource::INTERESTING));
         writes = "distance_bytes";
     }
     let shader = Shader::new("structure/distance_scan.comp", define);

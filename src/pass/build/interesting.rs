@@ -1,9 +1,10 @@
 //! Which cells are interesting: a bit for each, from the volume or from the ranges of larger cells.
 
-use super::{dispatch, slice, words_of_bits};
+use super::{dispatch, slice};
 use crate::glsl::Shader;
 use crate::part::Step;
-use crate::part::resource::Resource;
+use crate::resource;
+use crate::resource::words_of_bits;
 use crate::structure::Lookup;
 use crate::structure::grid::Grid;
 
@@ -18,13 +19,13 @@ pub fn interesting(grid: &Grid, holes: bool, lookup: &Lookup) -> Step {
     let mut reads = match lookup.reads_ranges() {
         true => {
             shader.defines.insert("RANGES");
-            vec![("cell_range", Resource::CellRange)]
+            vec![("cell_range", resource::CELL_RANGE.at(grid.cell as u16))]
         }
-        false => vec![("volume", Resource::Volume)],
+        false => vec![("volume", resource::VOLUME)],
     };
-    reads.extend(holes.then_some(("holes", Resource::Holes)));
-    reads.push(("support", Resource::Support));
-    let writes = [("interesting", Resource::Interesting)];
+    reads.extend(holes.then_some(("holes", resource::HOLES)));
+    reads.push(("support", resource::SUPPORT));
+    let writes = [("interesting", resource::INTERESTING)];
     let count = words_of_bits(grid);
     let voxels = if nearest { (grid.cell + 1).pow(3) } else { 1 };
     dispatch("interesting".to_owned(), shader, &reads, &writes, slice(grid, count), 32 * voxels)

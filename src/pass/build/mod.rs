@@ -1,81 +1,103 @@
 //! Compute steps that build structures: which cells are interesting, and how far it is to the nearest of them.
 //!
 //! They are run before frames, once for what they depend on: the volume, the transfer function, the view. Each step is
-//! cut into slices, so that a large volume takes many short dispatches.
+//! cut into slices, so that a large volume takes many short dispatches. [`RECIPES`] says which steps make what.
 
 mod bundle;
 mod distance;
 mod interesting;
 mod range;
 
-pub use bundle::{bundle, widen};
-pub use distance::{directional, omni};
+use bundle::{bundle, widen_2, widen_4};
+use distance::{directional, omni};
 use interesting::interesting;
-pub use range::cell_range;
+use range::cell_range;
 
 use std::sync::Arc;
 
 use crate::glsl::Shader;
-use crate::part::resource::{Access, Resource, Usage};
+use crate::part::access::{Access, Usage};
+use crate::part::resource::{Facts, Resource};
 use crate::part::{Dispatch, Group, Step, Work};
-use crate::scene::Field;
+use crate::resource;
+use crate::resource::texels::Texels;
 use crate::scene::settings::Distance;
 use crate::shared::Slice;
-use crate::structure::Lookup;
 use crate::structure::grid::Grid;
+use crate::structure::{self, Lookup};
 
-/// Every step from the volume to the distances.
-pub fn steps(field: &Field, lookup: &Lookup) -> Vec<Step> {
-    let grid = Grid::new(field, lookup.cell);
-    let mut steps = Vec::new();
-    steps.extend(cells(&grid, field, lookup));
-    match lookup.distance {
-        Distance::Omni => steps.extend(omni(&grid, Resource::NearestDistance)),
-        Distance::Directional => steps.extend(directional(&grid)),
-        Distance::Optimal | Distance::Cone => {
-            steps.extend(omni(&grid, Resource::OmniDistance));
-            steps.extend(widen(&grid));
-            steps.extend(bundle(&grid));
-        }
-    }
-    steps
+/// How a resource is built.
+pub struct Recipe {
+    pub makes: Resource,
+    /// The steps, by what sizes follow from and the resource's index.
+    pub steps: fn(&Facts, u16) -> Vec<Step>,
+    /// The bytes as the host makes them, where it has a form of its own.
+    pub host: Option<fn(&Facts) -> Vec<u8>>,
 }
 
-/// The steps from the volume to which cells are interesting.
-pub fn cells(grid: &Grid, field: &Field, lookup: &Lookup) -> Vec<Step> {
-    let ranges = lookup.reads_ranges().then(|| cell_range(grid));
-    ranges.into_iter().chain([interesting(grid, field.holes.is_some(), lookup)]).collect()
+/// Every recipe.
+pub static RECIPES: [Recipe; 6] = [
+    Recipe {
+        makes: resource::CELL_RANGE,
+        steps: |facts, side| vec![cell_range(&Grid::new(&facts.scene.field, side.into()))],
+        host: None,
+    },
+    Recipe {
+        makes: resource::INTERESTING,
+        steps: |facts, _| {
+            of_lookup(facts, |grid, lookup| vec![interesting(grid, facts.scene.field.holes.is_some(), lookup)])
+        },
+        host: None,
+    },
+    Recipe { makes: resource::WIDE_2, steps: |facts, _| of_lookup(facts, |grid, _| vec![widen_2(grid)]), host: None },
+    Recipe { makes: resource::WIDE_4, steps: |facts, _| of_lookup(facts, |grid, _| vec![widen_4(grid)]), host: None },
+    Recipe {
+        makes: resource::OMNI_DISTANCE,
+        steps: |facts, _| of_lookup(facts, |grid, _| omni(grid, resource::OMNI_DISTANCE)),
+        host: None,
+    },
+    Recipe {
+        makes: resource::NEAREST_DISTANCE,
+        steps: |facts, _| {
+            of_lookup(facts, |grid, lookup| match lookup.distance {
+                Distance::Omni => omni(grid, resource::NEAREST_DISTANCE),
+                Distance::Directional => directional(grid),
+                Distance::Optimal | Distance::Cone => bundle(grid),
+            })
+        },
+        host: Some(|facts| {
+            let texels = Texels::of(facts.scene);
+            let transfer = texels.transfer(&facts.scene.transfer);
+            let build = |lookup| structure::build(&facts.scene.field, &texels.values, &transfer, &lookup).bytes;
+            facts.lookup.map(build).unwrap_or_default()
+        }),
+    },
+];
+
+/// The recipe of a resource; none for what is not built.
+pub fn recipe(resource: Resource) -> Option<&'static Recipe> {
+    RECIPES.iter().find(|recipe| std::ptr::eq(recipe.makes.of, resource.of))
+}
+
+fn of_lookup(facts: &Facts, steps: impl FnOnce(&Grid, &Lookup) -> Vec<Step>) -> Vec<Step> {
+    facts.lookup.map_or_else(Vec::new, |lookup| steps(&Grid::new(&facts.scene.field, lookup.cell), &lookup))
+}
+
+/// The host makes a resource, and its bytes are uploaded.
+pub fn host(resource: Resource, group: Group) -> Step {
+    Step {
+        name: resource.name().to_owned(),
+        group,
+        pass: 0,
+        accesses: vec![Usage::Upload.of(resource)].into(),
+        work: Work::Host(resource),
+    }
 }
 
 /// What a step of `count` invocations knows of the grid.
 fn slice(grid: &Grid, count: usize) -> Slice {
     let [cells_x, cells_y, cells_z] = grid.cells.map(|n| n as u32);
     Slice { end: count as u32, cells_x, cells_y, cells_z, cell: grid.cell as u32, ..Slice::default() }
-}
-
-/// Words of a row of the grid that have a bit a cell, and all rows together.
-fn words_of_bits(grid: &Grid) -> usize {
-    grid.cells[0].div_ceil(32) * grid.cells[1] * grid.cells[2]
-}
-
-/// Words of rows that have a byte a cell.
-fn words_of_bytes([x, y, z]: [usize; 3]) -> usize {
-    x.div_ceil(4) * y * z
-}
-
-/// Bytes a resource of a build takes; 0 for those that are not made for one.
-pub fn bytes(grid: &Grid, octants: usize, resource: Resource) -> u64 {
-    let bytes = match resource {
-        Resource::CellRange => 8 * grid.count(),
-        Resource::Interesting | Resource::Wide2 | Resource::Wide4 => 4 * words_of_bits(grid),
-        Resource::Squares | Resource::SquaresAfter => 4 * grid.count(),
-        Resource::DistanceBytes if octants > 1 => octants * grid.count(),
-        Resource::DistanceBytes => 4 * words_of_bytes(grid.cells),
-        Resource::Boxes2 => 4 * words_of_bytes(grid.cells.map(|n| n.div_ceil(2))),
-        Resource::Boxes4 => 4 * words_of_bytes(grid.cells.map(|n| n.div_ceil(4))),
-        _ => 0,
-    };
-    bytes as u64
 }
 
 /// A dispatch that reads and writes these, bound under their own names or those given.
@@ -106,7 +128,7 @@ fn unpack(to: Resource) -> Step {
         name: to.name().to_owned(),
         group: Group::Structure,
         pass: 0,
-        accesses: vec![Usage::CopySource.of(Resource::DistanceBytes), Usage::CopyTarget.of(to)].into(),
-        work: Work::Unpack { from: Resource::DistanceBytes, to },
+        accesses: vec![Usage::CopySource.of(resource::DISTANCE_BYTES), Usage::CopyTarget.of(to)].into(),
+        work: Work::Unpack { from: resource::DISTANCE_BYTES, to },
     }
 }

@@ -3,15 +3,15 @@
 use super::{dispatch, slice};
 use crate::glsl::Shader;
 use crate::part::Step;
-use crate::part::resource::Resource;
+use crate::resource;
 use crate::structure::grid::Grid;
 
 pub fn cell_range(grid: &Grid) -> Step {
     dispatch(
         "cell_range".to_owned(),
         Shader::new("structure/cell_range.comp", []),
-        &[("volume", Resource::Volume)],
-        &[("cell_range", Resource::CellRange)],
+        &[("volume", resource::VOLUME)],
+        &[("cell_range", resource::CELL_RANGE.at(grid.cell as u16))],
         slice(grid, grid.count()),
         (grid.cell + 1).pow(3),
     )

@@ -131,7 +131,7 @@ fn repeated_frames_are_the_same(device: &Arc<Device>) {
         let mut structures = Structures::default();
         structures.prepare(scene, &plan);
         let mut resident = Resident::new(device);
-        resident.prepare(scene, &plan, &structures).expect("room");
+        resident.prepare(scene, &plan).expect("room");
         let mut frame = GpuFrame::new(device, scene, &plan, &mut resident, None).expect("a frame");
         let mut take = || {
             frame.run(Measure::Nothing).expect("a frame");
@@ -158,7 +158,7 @@ fn times_have_every_step_that_ran(device: &Arc<Device>) {
     let mut structures = Structures::default();
     structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
-    resident.prepare(&scene, &plan, &structures).expect("room");
+    resident.prepare(&scene, &plan).expect("room");
     let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
     let run = frame.run(Measure::Times).expect("a frame");
     if device.graphics.timestamp_valid_bits == 0 {

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use depthleap::frame::bytes::bytes;
 use depthleap::frame::{GpuFrame, Measure, Resident, Structures};
 use depthleap::part::form::Form;
 use depthleap::plan;
@@ -31,14 +30,13 @@ fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool)
     let mut structures = Structures::default();
     structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
-    resident.prepare(&scene, &plan, &structures).expect("room");
+    resident.prepare(&scene, &plan).expect("room");
     let mut gpu = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
     gpu.run(Measure::Nothing).expect("a frame");
     let there: Vec<_> = resident.bytes(&plan).into_iter().chain(gpu.bytes()).collect();
     for (resource, found) in &there {
-        let told = bytes(&scene, &plan, *resource);
-        // Of a structure on its way the plan says nothing.
-        assert!(told.is_none_or(|told| told == *found), "{}: {found} bytes, {told:?} in the plan", resource.name());
+        let told = resource.bytes(&plan.facts(&scene));
+        assert_eq!(told, *found, "{} in the plan and on the device", resource.name());
     }
     let bytes = there.iter().map(|(_, bytes)| bytes).sum();
     Frame { picture: gpu.picture().expect("a picture"), bytes, steps: plan.steps.len() }

@@ -1,0 +1,33 @@
+//! What a device makes of a plan: which builds run on it, and which on the host.
+
+use crate::error::Result;
+use crate::method;
+use crate::part::form::Form;
+use crate::plan::{self, Choice, Plan};
+use crate::resource::largest_buffer;
+use crate::scene::Scene;
+use crate::scene::settings::Builder;
+use crate::structure::Lookup;
+use crate::vulkan::Device;
+
+/// Plans the frame of a scene for a device; `lookup`: the distances to look up, where they are not the method's own.
+///
+/// # Errors
+/// As [`plan::plan_for`].
+pub fn plan_on(device: &Device, scene: &Scene, form: Option<Form>, lookup: Option<Lookup>) -> Result<Plan> {
+    let distance = method::of(scene.settings.method.name)?.distance();
+    let looked_up = lookup.or_else(|| distance.map(|distance| Lookup::new(scene, distance)));
+    let on_host = looked_up.is_some_and(|lookup| builds_on_host(device, scene, &lookup));
+    plan::plan_for(scene, Choice { form, on_host, lookup })
+}
+
+/// Whether the host builds distances: where it is asked to, where the device has no room to, and on a device that is a CPU,
+/// for which the host is the faster (`cargo bench --bench build`).
+fn builds_on_host(device: &Device, scene: &Scene, lookup: &Lookup) -> bool {
+    match scene.settings.method.build {
+        Builder::Host => true,
+        _ if largest_buffer(&scene.field, lookup) > device.info.max_storage_buffer => true,
+        Builder::Device => false,
+        Builder::Auto => device.info.is_cpu(),
+    }
+}

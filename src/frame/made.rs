@@ -1,0 +1,128 @@
+//! Resources as objects of a device, made as their rows say.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::build::Given;
+use super::upload;
+use crate::error::{Error, Result};
+use crate::part::resource::{Facts, Kind, Resource, Texture};
+use crate::scene::settings::Filter;
+use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
+
+/// An image or a buffer.
+pub enum Made {
+    Image(Image),
+    Buffer(Buffer),
+}
+
+impl Made {
+    pub fn image(&self) -> Option<&Image> {
+        match self {
+            Self::Image(image) => Some(image),
+            Self::Buffer(_) => None,
+        }
+    }
+
+    pub fn buffer(&self) -> Option<&Buffer> {
+        match self {
+            Self::Buffer(buffer) => Some(buffer),
+            Self::Image(_) => None,
+        }
+    }
+
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Self::Image(image) => image.bytes(),
+            Self::Buffer(buffer) => buffer.bytes(),
+        }
+    }
+
+    /// As a build binds it under the name of `resource`.
+    pub fn given(&self, resource: Resource) -> Given<'_> {
+        match self {
+            Self::Image(image) => Given::Image(image),
+            Self::Buffer(buffer) if matches!(resource.of.kind, Kind::Uniform(_)) => Given::Uniform(buffer),
+            Self::Buffer(buffer) => Given::Storage(buffer),
+        }
+    }
+}
+
+/// A resource that the device writes, or copies into.
+///
+/// # Errors
+/// Sizes beyond the device's limits, too little memory.
+pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<Made> {
+    let bytes = || resource.bytes(facts);
+    match &resource.of.kind {
+        Kind::Texture(texture) => image(device, resource, texture, facts).map(Made::Image),
+        _ => buffer(device, resource, bytes(), Place::Device).map(Made::Buffer),
+    }
+}
+
+/// A resource with what the host has for it.
+///
+/// # Errors
+/// As [`empty`], and a texture that the device cannot read or interpolate.
+pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[u8]) -> Result<Made> {
+    match &resource.of.kind {
+        Kind::Texture(texture) => {
+            check_format(device, (texture.format)(facts), texture.filtered && interpolates(facts))?;
+            let image = image(device, resource, texture, facts)?;
+            upload::image(device, &image, bytes)?;
+            Ok(Made::Image(image))
+        }
+        _ => {
+            let buffer = buffer(device, resource, bytes.len() as u64, Place::Upload)?;
+            buffer.write(0, bytes)?;
+            Ok(Made::Buffer(buffer))
+        }
+    }
+}
+
+fn interpolates(facts: &Facts) -> bool {
+    facts.scene.settings.sampling.filter == Filter::Hardware
+}
+
+fn buffer(device: &Arc<Device>, resource: Resource, size: u64, place: Place) -> Result<Buffer> {
+    use vk::BufferUsageFlags as Flags;
+    let usage = match resource.of.kind {
+        Kind::Vertices(_) => Flags::VERTEX_BUFFER,
+        Kind::Uniform(_) => Flags::UNIFORM_BUFFER,
+        Kind::Staging(_) => Flags::TRANSFER_SRC | Flags::TRANSFER_DST,
+        _ => Flags::STORAGE_BUFFER | Flags::TRANSFER_SRC,
+    };
+    Buffer::new(device, BufferInfo { name: resource.name().to_owned(), size, usage, place })
+}
+
+fn image(device: &Arc<Device>, resource: Resource, texture: &Texture, facts: &Facts) -> Result<Image> {
+    use vk::ImageUsageFlags as Flags;
+    let info = ImageInfo {
+        name: resource.name().to_owned(),
+        // Sides beyond 32 bits are beyond every device's limits, which are checked.
+        extent: (texture.extent)(facts).map(|side| u32::try_from(side).unwrap_or(u32::MAX)),
+        format: (texture.format)(facts),
+        usage: Flags::SAMPLED | Flags::TRANSFER_DST | Flags::TRANSFER_SRC,
+        volume: !texture.flat,
+        shared: (texture.shared)(facts),
+    };
+    Image::new(device, info)
+}
+
+fn check_format(device: &Device, format: vk::Format, linear: bool) -> Result<()> {
+    let needed = if linear {
+        vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR
+    } else {
+        vk::FormatFeatureFlags::SAMPLED_IMAGE
+    };
+    if device.format_supports(format, needed) {
+        return Ok(());
+    }
+    let (problem, remedy) = if linear {
+        (format!("cannot interpolate {format:?} volumes"), "use --filter exact, or --texture r16")
+    } else {
+        (format!("cannot read {format:?} textures"), "use another --texture")
+    };
+    Err(Error::device(&device.info.name, problem, remedy))
+}

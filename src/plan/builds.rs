@@ -1,0 +1,116 @@
+//! What has to be there before a frame: walking the frame's reads backwards, the steps that upload or build what is read
+//! are put in front, each once.
+
+use std::ops::Range;
+
+use crate::part::resource::{Facts, Life, Origin, Resource};
+use crate::part::{Group, Step};
+use crate::pass::build::{self, recipe};
+use crate::resource;
+use crate::scene::settings::Distance;
+use crate::structure::Lookup;
+
+/// A resource and what it was made for: frames with equal assets share it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asset {
+    pub resource: Resource,
+    /// What of the look-ups it depends on; none for what serves all of them.
+    pub lookup: Option<Lookup>,
+}
+
+impl Asset {
+    /// The asset that a step means by a resource, where distances are made for `lookup`.
+    pub fn of(resource: Resource, lookup: Option<Lookup>) -> Self {
+        let cells = lookup.map(|lookup| Lookup { distance: Distance::Omni, view: None, ..lookup });
+        match (resource.of.life, &resource.of.origin) {
+            // It is the texture that `nn-omni` looks up.
+            _ if resource == resource::OMNI_DISTANCE => Self { resource: resource::NEAREST_DISTANCE, lookup: cells },
+            (Life::View, _) => Self { resource, lookup },
+            (Life::Transfer, Origin::Built) => Self { resource, lookup: cells },
+            _ => Self { resource, lookup: None },
+        }
+    }
+}
+
+/// Who makes an asset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Maker {
+    /// The host has it, and it is uploaded.
+    Upload,
+    /// The host builds it, and it is uploaded.
+    Host,
+    /// Compute shaders.
+    Compute,
+}
+
+/// An asset and the steps of the plan that make it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Build {
+    pub asset: Asset,
+    pub maker: Maker,
+    pub steps: Range<usize>,
+}
+
+impl Build {
+    /// Whether it is made anew for every frame.
+    pub fn of_frame(&self) -> bool {
+        self.asset.resource.of.life == Life::Frame
+    }
+}
+
+/// Uploads and builds in the order in which they run.
+#[derive(Clone, Debug, Default)]
+pub struct Builds {
+    pub steps: Vec<Step>,
+    pub list: Vec<Build>,
+}
+
+impl Builds {
+    /// What steps that read `read` need first; what is made anew for every frame comes last. `on_host`: the host builds
+    /// what it has a form for.
+    pub fn of(facts: &Facts, on_host: bool, read: &[Resource]) -> Self {
+        let mut builds = Self::default();
+        let of_frame = |resource: &&Resource| resource.of.life == Life::Frame;
+        let before = read.iter().filter(|resource| !of_frame(resource));
+        before.chain(read.iter().filter(of_frame)).for_each(|resource| builds.need(facts, on_host, *resource));
+        builds
+    }
+
+    /// Everything that the distances of `facts` are made from, and they themselves.
+    pub fn of_distances(facts: &Facts, on_host: bool) -> Self {
+        Self::of(facts, on_host, &[resource::NEAREST_DISTANCE])
+    }
+
+    fn need(&mut self, facts: &Facts, on_host: bool, resource: Resource) {
+        let asset = Asset::of(resource, facts.lookup);
+        if self.list.iter().any(|build| build.asset == asset) {
+            return;
+        }
+        let (maker, steps) = match (&resource.of.origin, recipe(resource)) {
+            (Origin::Drawn | Origin::Passing, _) | (Origin::Built, None) => return,
+            (Origin::Host(_), _) => (Maker::Upload, vec![build::host(resource, Group::Upload)]),
+            (Origin::Built, Some(recipe)) if on_host && recipe.host.is_some() => {
+                (Maker::Host, vec![build::host(resource, Group::Structure)])
+            }
+            (Origin::Built, Some(recipe)) => {
+                let steps = (recipe.steps)(facts, resource.index);
+                reads(&steps).into_iter().for_each(|read| self.need(facts, on_host, read));
+                (Maker::Compute, steps)
+            }
+        };
+        let first = self.steps.len();
+        self.steps.extend(steps);
+        self.list.push(Build { asset, maker, steps: first..self.steps.len() });
+    }
+}
+
+/// What steps read, each resource once, in order.
+pub fn reads(steps: &[Step]) -> Vec<Resource> {
+    let mut found = Vec::new();
+    for access in steps.iter().flat_map(|step| step.accesses.iter()).filter(|access| access.usage.reads()) {
+        if !found.contains(&access.resource) {
+            found.push(access.resource);
+        }
+    }
+    found
+}

@@ -1,0 +1,94 @@
+//! What belongs to one frame: its box, its view, and what it draws into.
+
+use std::borrow::Cow;
+
+use ash::vk;
+
+use crate::part::resource::{Info, Kind, Life, Origin, Resource};
+use crate::scene::settings::{Accumulate, DepthFormat, Formats};
+use crate::shared;
+use crate::vulkan::texel_bytes;
+
+/// The box's triangles, the front ones first.
+pub const BOX: Resource = Resource::new(&BOX_INFO);
+static BOX_INFO: Info = Info {
+    name: "box",
+    holds: "corners of triangles in clip space, pixels of the view; the front ones, then the back ones",
+    kind: Kind::Vertices(|facts, _| (size_of::<[f32; 3]>() * (facts.view.front.len() + facts.view.back.len())) as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let corners: Vec<[f32; 3]> = [facts.view.front.as_slice(), &facts.view.back].concat();
+        bytemuck::cast_slice(&corners).to_vec().into()
+    }),
+};
+
+/// The view and the sampling.
+pub const FRAME: Resource = Resource::new(&FRAME_INFO);
+static FRAME_INFO: Info = Info {
+    name: "frame",
+    holds: "rays of the view and the sampling, `Frame` of frame.glsl",
+    kind: Kind::Uniform(|_, _| size_of::<shared::Frame>() as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let region = facts.view.region;
+        let frame = shared::Frame::new(facts.scene, &facts.view.rays, facts.passes, [region.x, region.y]);
+        Cow::Owned(bytemuck::bytes_of(&frame).to_vec())
+    }),
+};
+
+/// An image that frames draw into.
+const fn target(name: &'static str, holds: &'static str, format: fn(Formats) -> vk::Format) -> Info {
+    Info { name, holds, kind: Kind::Target(format), life: Life::Frame, origin: Origin::Drawn }
+}
+
+/// ENTRY [KW03 §2.1].
+pub const ENTRY: Resource = Resource::new(&ENTRY_INFO);
+static ENTRY_INFO: Info =
+    target("entry", "where the ray enters, texture coordinates", |_| vk::Format::R32G32B32A32_SFLOAT);
+
+/// DIR [KW03 §2.1].
+pub const DIRECTION: Resource = Resource::new(&DIRECTION_INFO);
+static DIRECTION_INFO: Info =
+    target("direction", "unit direction and length of the ray, volume space", |_| vk::Format::R32G32B32A32_SFLOAT);
+
+/// RES [KW03 §2.1].
+pub const ACCUMULATED: Resource = Resource::new(&ACCUMULATED_INFO);
+static ACCUMULATED_INFO: Info =
+    target("accumulated", "what the ray has gathered, premultiplied linear RGBA", |formats| match formats.accumulate {
+        Accumulate::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
+        Accumulate::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
+        Accumulate::Rgba8 => vk::Format::R8G8B8A8_UNORM,
+    });
+
+/// The depth buffer.
+pub const STORED: Resource = Resource::new(&STORED_INFO);
+static STORED_INFO: Info =
+    target("stored", "the mark of the ray, a depth from 0 to 1", |formats| match formats.depth {
+        DepthFormat::D32 => vk::Format::D32_SFLOAT,
+        DepthFormat::D24 => vk::Format::X8_D24_UNORM_PACK32,
+        DepthFormat::D16 => vk::Format::D16_UNORM,
+    });
+
+/// Decisions of an intermediate pass on their way to the depth buffer, in the same bytes.
+pub const MARKS: Resource = Resource::new(&MARKS_INFO);
+static MARKS_INFO: Info = target("marks", "the bytes of a mark to come", |formats| marks(formats.depth));
+
+fn marks(depth: DepthFormat) -> vk::Format {
+    match depth {
+        DepthFormat::D32 | DepthFormat::D24 => vk::Format::R32_SFLOAT,
+        DepthFormat::D16 => vk::Format::R8G8_UNORM,
+    }
+}
+
+/// Between a colour and a depth image a copy needs a buffer.
+pub const MARKS_BUFFER: Resource = Resource::new(&MARKS_BUFFER_INFO);
+static MARKS_BUFFER_INFO: Info = Info {
+    name: "marks_buffer",
+    holds: "marks between the two images",
+    kind: Kind::Staging(|facts, _| {
+        let texel = texel_bytes(marks(facts.scene.settings.formats().depth)).unwrap_or(0);
+        facts.view.region.pixels() * texel
+    }),
+    life: Life::Frame,
+    origin: Origin::Drawn,
+};

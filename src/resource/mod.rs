@@ -1,0 +1,57 @@
+//! Every image and buffer there is, said once: [`RESOURCES`] is the one list.
+//!
+//! To add one: a row in the file of its kind and a line in [`RESOURCES`] (the order in which lists of resources are printed).
+//! Passes name it in their accesses; who makes it stands in its [`crate::part::resource::Origin`]: frames, the host, or a build
+//! in `crate::pass::build`.
+
+mod frame;
+mod look;
+mod structure;
+pub mod texels;
+
+pub use frame::{ACCUMULATED, BOX, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
+pub use look::{AXIS, GREY_TRANSFER, HOLES, PREINTEGRATED, TRANSFER, VOLUME};
+pub use structure::{
+    BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
+    SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
+};
+
+use crate::part::resource::Resource;
+
+/// Every resource, in the order of lists.
+pub const RESOURCES: [Resource; 28] = [
+    BOX,
+    FRAME,
+    ENTRY,
+    DIRECTION,
+    ACCUMULATED,
+    STORED,
+    MARKS,
+    MARKS_BUFFER,
+    VOLUME,
+    HOLES,
+    TRANSFER,
+    GREY_TRANSFER,
+    PREINTEGRATED,
+    AXIS,
+    NEAREST_DISTANCE,
+    CELL_RANGE,
+    BLOCK_TABLE,
+    SUPPORT,
+    INTERESTING,
+    WIDE_2,
+    WIDE_4,
+    SQUARES,
+    SQUARES_AFTER,
+    DISTANCE_BYTES,
+    BOXES_2,
+    BOXES_4,
+    OMNI_DISTANCE,
+    BUNDLE,
+];
+
+/// The place of a resource in lists.
+pub fn order(resource: Resource) -> (usize, u16) {
+    let row = RESOURCES.iter().position(|row| std::ptr::eq(row.of, resource.of));
+    (row.unwrap_or(RESOURCES.len()), resource.index)
+}
