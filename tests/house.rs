@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &str); 23] = [
+const MAY_IMPORT: [(&str, &str); 24] = [
     ("error", ""),
     ("math", ""),
     ("provenance", "error"),
@@ -20,14 +20,18 @@ const MAY_IMPORT: [(&str, &str); 23] = [
     ("probe", "error provenance glsl vulkan"),
     ("part", "error math scene structure glsl vulkan truth twin shared"),
     ("resource", "error math scene structure vulkan truth shared part"),
+    ("geometry", "math scene part resource"),
     ("feature", "error math scene structure glsl vulkan truth twin shared part resource"),
-    ("pass", "error math scene structure glsl vulkan truth twin shared part resource feature"),
-    ("method", "error math scene structure glsl vulkan truth twin shared part resource feature pass"),
-    ("plan", "error math scene structure glsl vulkan truth twin shared part resource feature pass method"),
-    ("frame", "error math scene structure glsl vulkan truth twin shared part resource feature pass method plan probe"),
+    ("pass", "error math scene structure glsl vulkan truth twin shared part resource geometry feature"),
+    ("method", "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass"),
+    ("plan", "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method"),
+    (
+        "frame",
+        "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method plan probe",
+    ),
     (
         "measure",
-        "error math scene structure glsl vulkan truth twin shared part resource feature pass method plan frame provenance",
+        "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method plan frame provenance",
     ),
     ("report", "error math scene provenance measure"),
     (

@@ -1,6 +1,7 @@
 //! Plan to device objects: targets, render passes, framebuffers, pipelines, descriptor sets. Made once, run often.
 
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use ash::vk;
@@ -12,7 +13,7 @@ use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
 use crate::part::access::{Access, Usage};
 use crate::part::resource::{Kind, Origin, Resource};
-use crate::part::{Draw, Faces, Step, Work};
+use crate::part::{Draw, Step, Work};
 use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Region;
@@ -48,8 +49,8 @@ pub struct CompiledDraw {
     pub pipeline: Arc<GraphicsPipeline>,
     pub set: Arc<DescriptorSet>,
     pub clears: Vec<vk::ClearValue>,
-    pub first_vertex: u32,
-    pub vertices: u32,
+    /// Corners of the geometry.
+    pub corners: Range<u32>,
 }
 
 struct Compiler<'a> {
@@ -191,22 +192,17 @@ impl Compiler<'_> {
             constants: draw.constants.clone(),
             test: draw.test,
             blend: draw.blend,
+            geometry: draw.geometry,
         };
         let pipeline = self.resident.pipelines.pipeline(&key, step.pass_name())?;
         let set = self.set(&key, step, &pipeline)?;
-        let (front, back) = (self.plan.view.front.len() as u32, self.plan.view.back.len() as u32);
-        let (first_vertex, vertices) = match draw.faces {
-            Faces::Front => (0, front),
-            Faces::Back => (front, back),
-        };
         Ok(CompiledDraw {
             clears: vec![vk::ClearValue::default(); targets.len()],
             render_pass,
             framebuffer,
             pipeline,
             set,
-            first_vertex,
-            vertices,
+            corners: (draw.geometry.range)(&self.plan.view),
         })
     }
 

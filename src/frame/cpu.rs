@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::structures::Structures;
-use crate::math::ray::box_interval;
-use crate::part::{Draw, Faces, Group, Work};
+use crate::part::geometry::{Geometry, Hits, Sample};
+use crate::part::{Draw, Group, Work};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::twin::{Effect, Pixel, Twin};
@@ -115,25 +115,25 @@ impl CpuFrame {
 fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> CpuFrame {
     let mut frame = CpuFrame::empty(plan);
     for column in 0..plan.view.size[0] {
-        let (covered, on_outline) = coverage(twin, column, row, raster);
-        let mut pixel = Pixel { column, row, undecided: false, ..Pixel::default() };
-        if covered {
-            let mut counted = 0;
-            for step in &plan.steps {
-                let Work::Draw(draw) = &step.work else { continue };
-                let runs = takes_part(draw, &pixel);
-                if step.group == Group::Alive {
-                    frame.rays_left[counted] += u64::from(runs);
-                    counted += 1;
-                }
-                let Some(pass) = draw.twin.filter(|_| runs) else { continue };
-                let effect = pass(twin, &mut pixel, step.pass);
-                if let Some(list) = frame.counts.of(step.group) {
-                    list[step.pass as usize] += 1;
-                }
-                frame.ideal += u64::from(effect == Effect::Contributed);
+        let mut pixel = Pixel { column, row, ..Pixel::default() };
+        let mut hits = Coverage::default();
+        let mut counted = 0;
+        for step in plan.frame() {
+            let Work::Draw(draw) = &step.work else { continue };
+            let fragments = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
+            let runs = fragments > 0 && takes_part(draw, &pixel);
+            if step.group == Group::Alive {
+                frame.rays_left[counted] += u64::from(runs);
+                counted += 1;
             }
+            let Some(pass) = draw.twin.filter(|_| runs) else { continue };
+            let effect = pass(twin, &mut pixel, step.pass);
+            if let Some(list) = frame.counts.of(step.group) {
+                list[step.pass as usize] += 1;
+            }
+            frame.ideal += u64::from(effect == Effect::Contributed);
         }
+        let on_outline = hits.undecided();
         frame.pixels.push(pixel.accumulated);
         frame.undecided.push(pixel.undecided || on_outline);
         frame.outline += u64::from(on_outline);
@@ -143,18 +143,24 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> CpuFrame {
 
 /// Whether the fragment passes the step's tests. One rule for every form: stored <= bound.
 fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
-    draw.faces == Faces::Back || pixel.stored <= f64::from(draw.bound)
+    pixel.stored <= f64::from(draw.bound)
 }
 
-/// Whether the box covers the pixel's centre, and whether that is open. A rasteriser moves corners by up to half of its
-/// `raster` (pixels) on each axis; twice that leaves room for its own arithmetic.
-fn coverage(twin: &Twin, column: u32, row: u32, raster: f64) -> (bool, bool) {
-    let half = 0.5 * twin.scene.field.extent();
-    let hit = |x: f64, y: f64| {
-        let direction = twin.rays.direction(column, row) + x * twin.rays.right + y * twin.rays.down;
-        box_interval(twin.rays.eye, direction, half, twin.rays.near).is_some()
-    };
-    let centre = hit(0.0, 0.0);
-    let around = [(raster, raster), (-raster, raster), (raster, -raster), (-raster, -raster)];
-    (centre, around.into_iter().any(|(x, y)| hit(x, y) != centre))
+/// What geometries make of one pixel, each asked once.
+#[derive(Default)]
+struct Coverage(Vec<(&'static Geometry, Hits)>);
+
+impl Coverage {
+    fn of(&mut self, geometry: &'static Geometry, twin: &Twin, sample: Sample) -> Hits {
+        if let Some((_, known)) = self.0.iter().find(|(of, _)| *of == geometry) {
+            return *known;
+        }
+        let hits = (geometry.hits)(twin.scene, &twin.rays, sample);
+        self.0.push((geometry, hits));
+        hits
+    }
+
+    fn undecided(&self) -> bool {
+        self.0.iter().any(|(_, hits)| hits.undecided)
+    }
 }

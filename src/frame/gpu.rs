@@ -267,7 +267,7 @@ impl GpuFrame {
         if objects.pipeline.layout.push_constants > 0 {
             commands.push(&objects.pipeline.layout, bytemuck::bytes_of(&push));
         }
-        if let Some(vertices) = self.compiled.own.get(&resource::BOX).and_then(Made::buffer) {
+        if let Some(vertices) = self.compiled.own.get(&draw.geometry.vertices).and_then(Made::buffer) {
             commands.vertices(vertices);
         }
         if let Some(pool) = statistics {
@@ -280,7 +280,7 @@ impl GpuFrame {
         if let Some((buffer, at)) = conditional {
             commands.begin_conditional(buffer, 4 * at as u64);
         }
-        commands.draw(objects.first_vertex, objects.vertices);
+        commands.draw(objects.corners.start, objects.corners.len() as u32);
         if conditional.is_some() {
             commands.end_conditional();
         }

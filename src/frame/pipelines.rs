@@ -8,6 +8,7 @@ use ash::vk;
 
 use crate::error::{Error, Result};
 use crate::glsl;
+use crate::part::geometry::Geometry;
 use crate::part::{Constant, DepthTest, Step};
 use crate::vulkan::{
     Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
@@ -22,6 +23,7 @@ pub struct PipelineKey {
     pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
     pub blend: bool,
+    pub geometry: &'static Geometry,
 }
 
 /// Made when first asked for.
@@ -67,7 +69,7 @@ impl Pipelines {
             return Ok(known.clone());
         }
         let render_pass = self.render_pass(&key.render_pass)?;
-        let vertex = self.shader(&vertex())?;
+        let vertex = self.shader(&vertex(key.geometry))?;
         let fragment = key.shader.as_deref().map(|shader| self.shader(shader)).transpose()?;
         let constants = match (&key.shader, &fragment) {
             (Some(shader), Some(fragment)) => present(shader, fragment, &key.constants)?,
@@ -81,7 +83,7 @@ impl Pipelines {
                 fragment: fragment.as_deref(),
                 constants: &constants,
                 render_pass: &render_pass,
-                vertex_format: Some(vk::Format::R32G32B32_SFLOAT),
+                vertex_format: Some(key.geometry.corner),
                 depth: DepthState {
                     test: key.test.compare.is_some(),
                     write: key.test.write,
@@ -122,9 +124,12 @@ impl Pipelines {
     /// # Errors
     /// A shader that does not compile.
     pub fn prepare<'a>(&self, steps: impl IntoIterator<Item = &'a Step>) -> Result<()> {
-        let vertex = vertex();
-        let shaders = steps.into_iter().filter_map(|step| step.work.shader().map(Arc::as_ref)).chain([&vertex]);
-        glsl::prepare(shaders.filter(|shader| !self.shaders.contains_key(shader)))
+        let mut asked: Vec<glsl::Shader> = Vec::new();
+        for step in steps {
+            asked.extend(step.work.shader().map(|shader| glsl::Shader::clone(shader)));
+            asked.extend(step.work.geometry().map(vertex));
+        }
+        glsl::prepare(asked.iter().filter(|shader| !self.shaders.contains_key(shader)))
     }
 
     fn shader(&mut self, shader: &glsl::Shader) -> Result<Arc<Shader>> {
@@ -137,8 +142,8 @@ impl Pipelines {
     }
 }
 
-fn vertex() -> glsl::Shader {
-    glsl::Shader::new("box.vert", [])
+fn vertex(geometry: &Geometry) -> glsl::Shader {
+    glsl::Shader::new(geometry.vertex, [])
 }
 
 /// The constants that a module has. Those it has no use for are gone from its SPIR-V; one that its file declares for no

@@ -4,6 +4,7 @@
 
 pub mod access;
 pub mod form;
+pub mod geometry;
 pub mod resource;
 pub mod rows;
 pub mod steps;
@@ -16,6 +17,7 @@ use crate::glsl::Shader;
 use crate::shared::Slice;
 use crate::twin::TwinPass;
 use access::Access;
+use geometry::Geometry;
 use resource::Resource;
 
 /// One line of a plan: a pass with everything it needs to run.
@@ -100,6 +102,14 @@ pub enum Work {
 }
 
 impl Work {
+    /// What it draws.
+    pub fn geometry(&self) -> Option<&'static Geometry> {
+        match self {
+            Self::Draw(draw) => Some(draw.geometry),
+            _ => None,
+        }
+    }
+
     /// What is compiled for it; none where nothing is drawn or computed, or the vertex shader does.
     pub fn shader(&self) -> Option<&Arc<Shader>> {
         match self {
@@ -127,11 +137,11 @@ pub struct Dispatch {
     pub cells: u32,
 }
 
-/// Drawing the volume's box.
+/// Drawing a geometry.
 #[derive(Clone, Debug)]
 pub struct Draw {
-    pub faces: Faces,
-    /// The depth the box is drawn at, to the bit.
+    pub geometry: &'static Geometry,
+    /// The depth all of it is drawn at, to the bit.
     pub depth: f32,
     /// The greatest stored depth with which a fragment takes part, where the step is culled.
     pub bound: f32,
@@ -144,13 +154,6 @@ pub struct Draw {
     pub blend: bool,
     /// The same in f64; none where a pixel is not changed.
     pub twin: Option<TwinPass>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Faces {
-    /// Where rays enter, with the cap of the near plane.
-    Front,
-    Back,
 }
 
 /// The depth tests of a step.
@@ -168,10 +171,10 @@ impl DepthTest {
 }
 
 impl Draw {
-    /// A step that draws `faces` with the fragment shader in `file` and no depth.
-    pub fn plain(faces: Faces, file: &'static str, twin: TwinPass) -> Self {
+    /// A step that draws `geometry` with the fragment shader in `file` and no depth.
+    pub fn plain(geometry: &'static Geometry, file: &'static str, twin: TwinPass) -> Self {
         Self {
-            faces,
+            geometry,
             depth: 1.0,
             bound: 1.0,
             test: DepthTest::NONE,

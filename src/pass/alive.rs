@@ -2,9 +2,10 @@
 
 use ash::vk;
 
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::resource::Resource;
-use crate::part::{DepthTest, Draw, Faces, Group, Step, Work};
+use crate::part::{DepthTest, Draw, Group, Step, Work};
 use crate::resource;
 
 /// Dead rays hold 1.0; sections and skipped segments stay at or below 0.5.
@@ -23,7 +24,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
         pass,
         accesses: accesses.into(),
         work: Work::Draw(Draw {
-            faces: Faces::Front,
+            geometry: &BOX_FRONT,
             depth: ALIVE,
             bound: ALIVE,
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },

@@ -4,10 +4,11 @@ use ash::vk;
 
 use super::{constants, cull};
 use crate::feature::{self, EARLY_ENDS};
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
-use crate::part::{Draw, Faces, Group, Step};
+use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::twin;
 
@@ -21,7 +22,7 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     ];
     accesses.extend(feature::reads(context, Hook::Decide));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
-    let mut draw = Draw::plain(Faces::Front, "block_skip.frag", twin::block_skip::block_skip);
+    let mut draw = Draw::plain(&BOX_FRONT, "block_skip.frag", twin::block_skip::block_skip);
     draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

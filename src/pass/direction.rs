@@ -1,7 +1,8 @@
 //! Ray direction determination [KW03 §2.1, Thesis §5.2.2].
 
+use crate::geometry::BOX_BACK;
 use crate::part::access::Usage;
-use crate::part::{Draw, Faces, Group, Step, Work};
+use crate::part::{Draw, Group, Step, Work};
 use crate::resource;
 use crate::twin;
 
@@ -17,6 +18,6 @@ pub fn direction() -> Step {
             Usage::Color.of(resource::DIRECTION),
         ]
         .into(),
-        work: Work::Draw(Draw::plain(Faces::Back, "direction.frag", twin::direction::direction)),
+        work: Work::Draw(Draw::plain(&BOX_BACK, "direction.frag", twin::direction::direction)),
     }
 }

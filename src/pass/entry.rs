@@ -1,7 +1,8 @@
 //! Entry point determination [KW03 §2.1, Thesis §5.2.2].
 
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
-use crate::part::{Draw, Faces, Group, Step, Work};
+use crate::part::{Draw, Group, Step, Work};
 use crate::resource;
 use crate::twin;
 
@@ -16,6 +17,6 @@ pub fn entry() -> Step {
             Usage::Color.of(resource::ENTRY),
         ]
         .into(),
-        work: Work::Draw(Draw::plain(Faces::Front, "entry.frag", twin::entry::entry)),
+        work: Work::Draw(Draw::plain(&BOX_FRONT, "entry.frag", twin::entry::entry)),
     }
 }

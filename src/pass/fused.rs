@@ -2,10 +2,11 @@
 
 use super::{constants, cull};
 use crate::feature::{self, DISTANCES, EARLY_ENDS};
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
-use crate::part::{Draw, Faces, Group, Step};
+use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::twin;
 use crate::twin::section::section_end;
@@ -27,7 +28,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(resource::ACCUMULATED));
     accesses.extend(feature::reads(context, Hook::Sample));
-    let mut draw = Draw::plain(Faces::Front, "fused.frag", twin::fused::fused);
+    let mut draw = Draw::plain(&BOX_FRONT, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Sample));
     draw.define(feature::defines(context, Hook::Decide));
     draw.blend = true;

@@ -2,9 +2,10 @@
 
 use super::{constants, cull};
 use crate::feature;
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::rows::{Context, Hook};
-use crate::part::{Draw, Faces, Group, Step};
+use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::scene::settings::Cull;
 use crate::twin;
@@ -20,7 +21,7 @@ pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
         Usage::Color.of(resource::ACCUMULATED),
     ];
     accesses.extend(feature::reads(context, Hook::Sample));
-    let mut draw = Draw::plain(Faces::Front, "main_pass.frag", twin::main_pass::main_pass);
+    let mut draw = Draw::plain(&BOX_FRONT, "main_pass.frag", twin::main_pass::main_pass);
     draw.define(feature::defines(context, Hook::Sample));
     draw.blend = true;
     draw.specialize([constants::samples(context.scene)]);

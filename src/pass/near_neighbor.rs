@@ -2,10 +2,11 @@
 
 use super::{constants, cull};
 use crate::feature::{self, EARLY_ENDS};
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
-use crate::part::{Draw, Faces, Group, Step};
+use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::scene::settings::Mark;
 use crate::twin;
@@ -23,7 +24,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part.
     let culled = pass > 0 || form.mark != Mark::Copy;
-    let mut draw = Draw::plain(Faces::Front, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
+    let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
     draw.define(feature::defines(context, Hook::Decide));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

@@ -3,10 +3,11 @@
 use ash::vk;
 
 use super::{constants, cull};
+use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::Context;
-use crate::part::{Draw, Faces, Group, Step};
+use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::twin;
 
@@ -19,7 +20,7 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::DIRECTION),
         Usage::Sampled.of(resource::ACCUMULATED),
     ];
-    let mut draw = Draw::plain(Faces::Front, "termination.frag", twin::termination::termination);
+    let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
     draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)

@@ -1,0 +1,7 @@
+//! What draws may cover pixels with, as rows.
+//!
+//! To add one: a file here with its row, its vertex shader in `glsl`, and a row for its corners in [`mod@crate::resource`].
+
+mod volume_box;
+
+pub use volume_box::{BOX_BACK, BOX_FRONT};

@@ -1,0 +1,44 @@
+//! The volume's box, clipped to the view [KW03 §2.1].
+
+use ash::vk;
+
+use crate::math::ray::{ViewRays, box_interval};
+use crate::part::geometry::{Geometry, Hits, Sample};
+use crate::resource;
+use crate::scene::Scene;
+
+/// Its front faces with the cap of the near plane: where rays enter.
+pub static BOX_FRONT: Geometry = Geometry { name: "front faces", range: |view| 0..view.front.len() as u32, ..BOX };
+
+/// Its back faces: where rays leave.
+pub static BOX_BACK: Geometry = Geometry {
+    name: "back faces",
+    range: |view| {
+        let front = view.front.len() as u32;
+        front..front + view.back.len() as u32
+    },
+    ..BOX
+};
+
+/// What both have in common.
+const BOX: Geometry = Geometry {
+    name: "box",
+    vertex: "box.vert",
+    vertices: resource::BOX,
+    corner: vk::Format::R32G32B32_SFLOAT,
+    range: |_| 0..0,
+    hits,
+};
+
+/// One fragment where the ray meets the box, which is convex. A rasteriser moves corners by up to half of its raster on
+/// each axis; twice that leaves room for its own arithmetic.
+fn hits(scene: &Scene, rays: &ViewRays, Sample { pixel: [column, row], raster }: Sample) -> Hits {
+    let half = 0.5 * scene.field.extent();
+    let hit = |x: f64, y: f64| {
+        let direction = rays.direction(column, row) + x * rays.right + y * rays.down;
+        box_interval(rays.eye, direction, half, rays.near).is_some()
+    };
+    let centre = hit(0.0, 0.0);
+    let around = [(raster, raster), (-raster, raster), (raster, -raster), (-raster, -raster)];
+    Hits { fragments: u32::from(centre), undecided: around.into_iter().any(|(x, y)| hit(x, y) != centre) }
+}

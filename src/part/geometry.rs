@@ -1,0 +1,58 @@
+//! What draws cover pixels with. The rows stand in [`mod@crate::geometry`].
+
+use std::hash::{Hash, Hasher};
+use std::ops::Range;
+
+use ash::vk;
+
+use super::resource::Resource;
+use crate::math::ray::ViewRays;
+use crate::scene::Scene;
+use crate::scene::view::View;
+
+/// Triangles, and the fragments that a rasteriser makes of them.
+#[derive(Debug)]
+pub struct Geometry {
+    pub name: &'static str,
+    /// The file of the vertex shader.
+    pub vertex: &'static str,
+    /// The buffer of corners.
+    pub vertices: Resource,
+    /// The format of a corner, which is all that the vertex shader reads.
+    pub corner: vk::Format,
+    /// Which corners of the buffer are drawn, three a triangle.
+    pub range: fn(&View) -> Range<u32>,
+    /// The fragments of a pixel, in f64.
+    pub hits: fn(&Scene, &ViewRays, Sample) -> Hits,
+}
+
+/// Where a pixel is asked for its fragments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Column and row, row 0 on top; asked in its centre.
+    pub pixel: [u32; 2],
+    /// Steps of the raster that a rasteriser moves corners to, in pixels.
+    pub raster: f64,
+}
+
+/// Fragments that a geometry makes in a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hits {
+    pub fragments: u32,
+    /// Whether a rasteriser, which moves corners to its raster, may make another number of them.
+    pub undecided: bool,
+}
+
+impl PartialEq for Geometry {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl Eq for Geometry {}
+
+impl Hash for Geometry {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        std::ptr::from_ref(self).hash(state);
+    }
+}
