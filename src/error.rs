@@ -37,7 +37,7 @@ fn steers(c: char) -> bool {
 
 /// What kind of thing failed; decides the exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ErrorKind {
     /// An option or a combination of options that makes no sense (exit code 2).
     Usage,
     /// A file or a value in it (exit code 3).
@@ -54,7 +54,7 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{input}: {problem}; {remedy}")]
 pub struct Error {
-    pub kind: Kind,
+    pub kind: ErrorKind,
     /// The file, option, key or device at fault, named as the user knows it.
     pub input: String,
     /// What is wrong with it, with the offending value.
@@ -67,26 +67,26 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 impl Error {
     pub fn usage(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self::new(Kind::Usage, input, problem, remedy)
+        Self::new(ErrorKind::Usage, input, problem, remedy)
     }
 
     pub fn input(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self::new(Kind::Input, input, problem, remedy)
+        Self::new(ErrorKind::Input, input, problem, remedy)
     }
 
     pub fn device(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self::new(Kind::Device, input, problem, remedy)
+        Self::new(ErrorKind::Device, input, problem, remedy)
     }
 
     pub fn check(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self::new(Kind::Check, input, problem, remedy)
+        Self::new(ErrorKind::Check, input, problem, remedy)
     }
 
     pub fn output(input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
-        Self::new(Kind::Output, input, problem, remedy)
+        Self::new(ErrorKind::Output, input, problem, remedy)
     }
 
-    fn new(kind: Kind, input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
+    fn new(kind: ErrorKind, input: impl ToString, problem: impl ToString, remedy: impl ToString) -> Self {
         // Only a problem, told by a compiler, has lines: in a name a line's end is a character as any other.
         let [input, remedy] = [input.to_string(), remedy.to_string()].map(|text| shown(&text.replace('\n', "\\n")));
         Self { kind, input, problem: shown(&problem.to_string()), remedy }
@@ -94,11 +94,11 @@ impl Error {
 
     pub fn exit_code(&self) -> u8 {
         match self.kind {
-            Kind::Usage => 2,
-            Kind::Input => 3,
-            Kind::Device => 4,
-            Kind::Check => 5,
-            Kind::Output => 6,
+            ErrorKind::Usage => 2,
+            ErrorKind::Input => 3,
+            ErrorKind::Device => 4,
+            ErrorKind::Check => 5,
+            ErrorKind::Output => 6,
         }
     }
 }

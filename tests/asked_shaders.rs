@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use depthleap::glsl::compile::compile;
 use depthleap::glsl::{self, Shader as Source};
 use depthleap::part::Work;
-use depthleap::vulkan::{Shader, vk};
+use depthleap::vulkan::{ShaderModule, vk};
 use module::{compiled, module};
 use rayon::prelude::*;
 
@@ -53,7 +53,7 @@ fn declared_constants_are_those_of_the_modules() {
     assert!(seen > 100, "{seen} constants were looked at");
 }
 
-fn has(shader: &Shader, mode: &str) -> bool {
+fn has(shader: &ShaderModule, mode: &str) -> bool {
     shader.execution_modes.iter().any(|one| one == mode)
 }
 
@@ -65,7 +65,7 @@ struct Depth {
     less: bool,
 }
 
-fn depth(shader: &Shader) -> Depth {
+fn depth(shader: &ShaderModule) -> Depth {
     Depth {
         early: has(shader, "EarlyFragmentTests"),
         replacing: has(shader, "DepthReplacing"),
@@ -138,9 +138,9 @@ fn every_shader_that_is_asked_for_is_sound() {
         let defines: Vec<&str> = shader.defines.iter().copied().collect();
         let made = compile(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
         assert_eq!(made.warnings, "", "{shader}");
-        Shader::new(&shader.to_string(), &made.words).unwrap()
+        ShaderModule::new(&shader.to_string(), &made.words).unwrap()
     };
-    let modules: Vec<Shader> = asked.par_iter().map(fresh).collect();
+    let modules: Vec<ShaderModule> = asked.par_iter().map(fresh).collect();
     for (shader, module) in asked.iter().zip(modules) {
         assert_eq!(contradiction(shader, &depth(&module)), None, "{shader}");
         let stage = match shader.file.rsplit_once('.') {

@@ -11,7 +11,7 @@ use depthleap::resource::texels::Texels;
 use depthleap::scene::field::{NanPolicy, Normalisation};
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
 use depthleap::scene::settings::{Filter, Settings, VolumeTexture};
-use depthleap::scene::texture::{FilterError, Kept, TexelFormat, TextureChoice};
+use depthleap::scene::texture::{Coding, FilterError, TexelFormat, TextureChoice};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TextureUnit, TransferFunction, Volume};
 use depthleap::structure::cells::{self, Values};
@@ -229,24 +229,24 @@ fn auto_takes_the_smallest_format_that_is_precise_enough() {
     };
     let mask = || Voxels::U8(vec![0, 1, 0, 1, 1, 0, 0, 1]);
     let fine = TextureUnit::default();
-    assert_eq!(kept(mask(), fine, |_| {}), (Kept::Stored, TexelFormat::R8));
-    assert_eq!(kept(mask(), coarse(), |_| {}), (Kept::Widened, TexelFormat::R16));
-    assert_eq!(kept(mask(), coarse(), |s| s.volume.precision = 0.1), (Kept::Stored, TexelFormat::R8));
+    assert_eq!(kept(mask(), fine, |_| {}), (Coding::Stored, TexelFormat::R8));
+    assert_eq!(kept(mask(), coarse(), |_| {}), (Coding::Widened, TexelFormat::R16));
+    assert_eq!(kept(mask(), coarse(), |s| s.volume.precision = 0.1), (Coding::Stored, TexelFormat::R8));
     // What a shader interpolates needs no unit.
-    assert_eq!(kept(mask(), coarse(), |s| s.sampling.filter = Filter::Exact), (Kept::Stored, TexelFormat::R8));
+    assert_eq!(kept(mask(), coarse(), |s| s.sampling.filter = Filter::Exact), (Coding::Stored, TexelFormat::R8));
     // Two codes of 65536 fill the range: f32 itself rounds each to 2^-24 of them all.
     let narrow = || Voxels::U16(vec![60_000, 60_001, 60_000, 60_001, 60_001, 60_000, 60_000, 60_001]);
-    assert_eq!(kept(narrow(), coarse(), |_| {}), (Kept::Stretched, TexelFormat::R16));
+    assert_eq!(kept(narrow(), coarse(), |_| {}), (Coding::Stretched, TexelFormat::R16));
     // Nothing is interpolated: the codes themselves are exact.
-    assert_eq!(kept(narrow(), coarse(), |s| s.sampling.filter = Filter::Nearest), (Kept::Stored, TexelFormat::R16));
+    assert_eq!(kept(narrow(), coarse(), |s| s.sampling.filter = Filter::Nearest), (Coding::Stored, TexelFormat::R16));
     assert_eq!(
         kept(narrow(), coarse(), |s| s.volume.texture = VolumeTexture::Native),
-        (Kept::Stored, TexelFormat::R16)
+        (Coding::Stored, TexelFormat::R16)
     );
     // Where no format is precise enough, no bytes are spent on it.
     let few_bits = Some(FilterError { rounding: 1e-4, weight: 6e-3 });
     let unit = TextureUnit { errors: [few_bits; 3], measured: true };
-    assert_eq!(kept(Voxels::U8(vec![0, 255, 0, 255, 0, 255, 0, 255]), unit, |_| {}), (Kept::Stored, TexelFormat::R8));
+    assert_eq!(kept(Voxels::U8(vec![0, 255, 0, 255, 0, 255, 0, 255]), unit, |_| {}), (Coding::Stored, TexelFormat::R8));
 }
 
 #[test]

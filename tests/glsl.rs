@@ -6,7 +6,7 @@ mod folder;
 use std::fs;
 use std::path::Path;
 
-use depthleap::error::Kind;
+use depthleap::error::ErrorKind;
 use depthleap::glsl::compile::compile;
 use depthleap::glsl::source::{Broken, Source, Text};
 use depthleap::glsl::takes::Takes;
@@ -53,7 +53,7 @@ fn unknown_file_names_the_nearest() {
         ("entry", "entry.frag"),
     ] {
         let error = glsl::module(&Shader::new(wrong, [])).unwrap_err();
-        assert_eq!(error.kind, Kind::Usage);
+        assert_eq!(error.kind, ErrorKind::Usage);
         assert_eq!(error.to_string(), format!("shader {wrong}: there is no such file; did you mean `{near}`?"));
     }
 }
@@ -77,7 +77,7 @@ fn defines_that_a_shader_does_not_take_are_refused() {
         ("probe/probe.frag", &["DEPTH"], "`DEPTH` is asked for"),
     ] {
         let error = glsl::module(&Shader::new(file, defines.iter().copied())).unwrap_err();
-        assert_eq!(error.kind, Kind::Input, "{error}");
+        assert_eq!(error.kind, ErrorKind::Input, "{error}");
         assert!(error.to_string().contains(says), "{error}");
     }
     // The place is that of the line that says what the shader takes.

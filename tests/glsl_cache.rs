@@ -6,7 +6,7 @@ mod folder;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use depthleap::glsl::cache::{Cache, Key};
+use depthleap::glsl::cache::{Cache, CacheKey};
 use depthleap::glsl::library::Library;
 use depthleap::glsl::source::Source;
 use depthleap::glsl::{Shader, built_in};
@@ -18,8 +18,8 @@ fn entry() -> Shader {
     Shader::new(ENTRY, [])
 }
 
-fn key(source: &Source, file: &str, defines: &[&str]) -> Key {
-    Key::of(&source.text(file).unwrap(), defines)
+fn key(source: &Source, file: &str, defines: &[&str]) -> CacheKey {
+    CacheKey::of(&source.text(file).unwrap(), defines)
 }
 
 /// A library that has nothing in memory yet.

@@ -13,7 +13,7 @@ use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::resource;
 use depthleap::scene::Settings;
-use depthleap::vulkan::Shader;
+use depthleap::vulkan::ShaderModule;
 
 use lacking::{Less, SCENES};
 
@@ -33,7 +33,7 @@ fn steps(plan: &Plan, group: Group) -> usize {
 }
 
 /// Shaders of a plan, as they are compiled.
-fn shaders(plan: &Plan) -> Vec<Shader> {
+fn shaders(plan: &Plan) -> Vec<ShaderModule> {
     let shaders: HashSet<_> = plan
         .steps
         .iter()
@@ -42,7 +42,7 @@ fn shaders(plan: &Plan) -> Vec<Shader> {
             _ => None,
         })
         .collect();
-    shaders.iter().map(|one| Shader::new(&one.to_string(), &glsl::module(one).unwrap()).unwrap()).collect()
+    shaders.iter().map(|one| ShaderModule::new(&one.to_string(), &glsl::module(one).unwrap()).unwrap()).collect()
 }
 
 #[test]
@@ -90,8 +90,8 @@ fn what_is_left_out_is_not_in_the_shaders() {
         let (lean, full) = (planned(&settings, true), planned(&settings, false));
         let has = |plan: &Plan, what: &str| {
             let shaders = shaders(plan);
-            let bound = |s: &Shader| s.bindings.iter().any(|b| b.name == what);
-            let set = |s: &Shader| s.spec_constants.iter().any(|(n, _)| n == what);
+            let bound = |s: &ShaderModule| s.bindings.iter().any(|b| b.name == what);
+            let set = |s: &ShaderModule| s.spec_constants.iter().any(|(n, _)| n == what);
             shaders.iter().any(|s| bound(s) || set(s))
         };
         let gone: &[&str] = match less {

@@ -8,10 +8,10 @@ use depthleap::probe::depth::{LEAST_NORMAL, Precision};
 use depthleap::probe::rig::{Input, Left};
 use depthleap::probe::rule::{Fragment, Promise, Setup};
 use depthleap::probe::statistics::{Known, doubt};
-use depthleap::probe::{Compare, Culling, History, Mechanism, Pattern, Shader};
+use depthleap::probe::{CaseShader, Compare, Culling, History, Mechanism, Pattern};
 use depthleap::vulkan::{self, vk};
 
-fn case(mechanism: Mechanism, shader: Shader) -> Case {
+fn case(mechanism: Mechanism, shader: CaseShader) -> Case {
     Case { mechanism, shader, compare: Compare::GreaterOrEqual }
 }
 
@@ -21,7 +21,7 @@ fn shaders_declare_what_their_rows_say() {
     for case in Case::all() {
         let shader = case.fragment();
         let (name, words) = (shader.to_string(), glsl::module(&shader).unwrap());
-        let module = vulkan::Shader::new(&name, &words).unwrap();
+        let module = vulkan::ShaderModule::new(&name, &words).unwrap();
         let has = |mode: &str| module.execution_modes.iter().any(|m| m == mode);
         let binds = |binding: &str| module.bindings.iter().any(|b| b.name == binding);
         let depth = case.shader.conservative();
@@ -35,7 +35,7 @@ fn shaders_declare_what_their_rows_say() {
         assert_eq!(binds("stored"), case.mechanism.in_shader(), "{name}");
         // OpKill, OpTerminateInvocation, OpDemoteToHelperInvocation.
         let discards = opcodes(&words).any(|op| [252, 4416, 5380].contains(&op));
-        assert_eq!(discards, case.shader == Shader::Discards || case.mechanism.in_shader(), "{name}");
+        assert_eq!(discards, case.shader == CaseShader::Discards || case.mechanism.in_shader(), "{name}");
         seen.insert(name);
     }
     // 13 kinds, and 5 of them for each of the two ways to look at the stored depth.
@@ -81,7 +81,7 @@ fn rule_is_the_specifications() {
         [(0.2, true), (0.4, true), (0.2f32.next_down(), false), (0.4f32.next_up(), false), (0.8, false)]
     {
         for mechanism in [Mechanism::BoundsAlone, Mechanism::BoundsRead, Mechanism::BoundsWrite] {
-            let found = of(mechanism, Shader::DepthAny, stored, 0.3);
+            let found = of(mechanism, CaseShader::DepthAny, stored, 0.3);
             assert_eq!(found.passes, passes, "{mechanism:?}, {stored}");
             let written = passes && mechanism == Mechanism::BoundsWrite;
             assert_eq!(found.depth, if written { 0.3 } else { stored });
@@ -89,19 +89,19 @@ fn rule_is_the_specifications() {
         }
     }
     // The depth test compares what the shader writes, unless tests are early.
-    assert!(of(Mechanism::DepthRead, Shader::DepthLess, 0.75, 0.75).passes);
-    assert!(!of(Mechanism::DepthRead, Shader::DepthLess, 0.75f32.next_up(), 0.75).passes);
-    assert!(of(Mechanism::DepthRead, Shader::Early, 0.8, 0.1).passes);
-    assert!(!of(Mechanism::DepthRead, Shader::Plain, 0.8f32.next_up(), 0.9).passes);
-    let less = Case { compare: Compare::LessOrEqual, ..case(Mechanism::DepthRead, Shader::Plain) };
+    assert!(of(Mechanism::DepthRead, CaseShader::DepthLess, 0.75, 0.75).passes);
+    assert!(!of(Mechanism::DepthRead, CaseShader::DepthLess, 0.75f32.next_up(), 0.75).passes);
+    assert!(of(Mechanism::DepthRead, CaseShader::Early, 0.8, 0.1).passes);
+    assert!(!of(Mechanism::DepthRead, CaseShader::Plain, 0.8f32.next_up(), 0.9).passes);
+    let less = Case { compare: Compare::LessOrEqual, ..case(Mechanism::DepthRead, CaseShader::Plain) };
     assert!(less.expected(Precision::Float, &setup, &Fragment { stored: 0.9, written: 0.0, stencil: true }).passes);
     // Stores are late unless early tests are declared; a shader that looks stores for those alive.
-    assert!(of(Mechanism::DepthRead, Shader::Buffer, 0.9, 0.0).stores);
-    assert!(!of(Mechanism::DepthRead, Shader::EarlyBuffer, 0.9, 0.0).stores);
-    assert!(!of(Mechanism::Alive, Shader::Image, 0.5, 0.0).stores);
-    assert!(of(Mechanism::DiscardFirst, Shader::Image, 0.4, 0.0).passes);
+    assert!(of(Mechanism::DepthRead, CaseShader::Buffer, 0.9, 0.0).stores);
+    assert!(!of(Mechanism::DepthRead, CaseShader::EarlyBuffer, 0.9, 0.0).stores);
+    assert!(!of(Mechanism::Alive, CaseShader::Image, 0.5, 0.0).stores);
+    assert!(of(Mechanism::DiscardFirst, CaseShader::Image, 0.4, 0.0).passes);
     let stencil = |stencil| {
-        case(Mechanism::Stencil, Shader::Plain)
+        case(Mechanism::Stencil, CaseShader::Plain)
             .expected(Precision::Float, &setup, &Fragment { stored: 0.9, written: 0.0, stencil })
             .passes
     };
@@ -110,14 +110,14 @@ fn rule_is_the_specifications() {
     let unorm = Precision::Unorm(16);
     let beside = |by| unorm.beside(0.4, by);
     let open = |stored| {
-        case(Mechanism::BoundsRead, Shader::Plain)
+        case(Mechanism::BoundsRead, CaseShader::Plain)
             .expected(unorm, &setup, &Fragment { stored, written: 0.0, stencil: true })
             .open
     };
     assert!(open(beside(0)) && open(beside(1)) && !open(beside(2)) && !open(beside(-2)));
     let ends = Setup { drawn: 0.8, bounds: [0.0, 0.0] };
     let tiny = Fragment { stored: LEAST_NORMAL / 2.0, written: 0.0, stencil: true };
-    assert!(case(Mechanism::BoundsRead, Shader::Plain).expected(Precision::Float, &ends, &tiny).open);
+    assert!(case(Mechanism::BoundsRead, CaseShader::Plain).expected(Precision::Float, &ends, &tiny).open);
 }
 
 #[test]
@@ -136,14 +136,14 @@ fn each_pattern_passes_and_rejects_whatever_the_shader_writes() {
 fn promises_are_the_specifications() {
     let promise = |mechanism, shader, compare| Case { mechanism, shader, compare }.promise();
     let (ge, le) = (Compare::GreaterOrEqual, Compare::LessOrEqual);
-    assert_eq!(promise(Mechanism::BoundsRead, Shader::EarlyImage, ge), Promise::Promised);
-    assert_eq!(promise(Mechanism::BoundsCompare, Shader::DepthAny, ge), Promise::Allowed);
-    assert_eq!(promise(Mechanism::BoundsCompare, Shader::DepthAnyBuffer, ge), Promise::Forbidden);
-    assert_eq!(promise(Mechanism::DepthWrite, Shader::DepthLess, ge), Promise::Allowed);
-    assert_eq!(promise(Mechanism::DepthWrite, Shader::DepthLess, le), Promise::Forbidden);
-    assert_eq!(promise(Mechanism::DepthWrite, Shader::DepthGreater, le), Promise::Allowed);
-    assert_eq!(promise(Mechanism::DepthRead, Shader::DepthAny, ge), Promise::Forbidden);
-    assert_eq!(promise(Mechanism::Alive, Shader::Plain, ge), Promise::Own);
+    assert_eq!(promise(Mechanism::BoundsRead, CaseShader::EarlyImage, ge), Promise::Promised);
+    assert_eq!(promise(Mechanism::BoundsCompare, CaseShader::DepthAny, ge), Promise::Allowed);
+    assert_eq!(promise(Mechanism::BoundsCompare, CaseShader::DepthAnyBuffer, ge), Promise::Forbidden);
+    assert_eq!(promise(Mechanism::DepthWrite, CaseShader::DepthLess, ge), Promise::Allowed);
+    assert_eq!(promise(Mechanism::DepthWrite, CaseShader::DepthLess, le), Promise::Forbidden);
+    assert_eq!(promise(Mechanism::DepthWrite, CaseShader::DepthGreater, le), Promise::Allowed);
+    assert_eq!(promise(Mechanism::DepthRead, CaseShader::DepthAny, ge), Promise::Forbidden);
+    assert_eq!(promise(Mechanism::Alive, CaseShader::Plain, ge), Promise::Own);
 }
 
 #[test]
@@ -286,10 +286,10 @@ fn every_fault_is_seen_and_named() {
         }
     }
     // Where counts are not exact, only none and any can be told apart.
-    let (input, left) = right(&case(Mechanism::DepthRead, Shader::Plain), vk::Format::D32_SFLOAT);
+    let (input, left) = right(&case(Mechanism::DepthRead, CaseShader::Plain), vk::Format::D32_SFLOAT);
     let count = |samples| {
         let left = Left { samples, ..left.clone() };
-        differences(vk::Format::D32_SFLOAT, false, &case(Mechanism::DepthRead, Shader::Plain), &input, &left).len()
+        differences(vk::Format::D32_SFLOAT, false, &case(Mechanism::DepthRead, CaseShader::Plain), &input, &left).len()
     };
     assert_eq!((count(1), count(left.samples), count(0)), (0, 0, 1));
 }

@@ -8,11 +8,11 @@ mod module;
 
 use depthleap::glsl::Shader as Source;
 use depthleap::shared;
-use depthleap::vulkan::{Shader, vk};
+use depthleap::vulkan::{ShaderModule, vk};
 use module::{compiled, module};
 
 /// Names, binding numbers, kinds.
-fn bindings(shader: &Shader) -> Vec<(&str, u32, vk::DescriptorType)> {
+fn bindings(shader: &ShaderModule) -> Vec<(&str, u32, vk::DescriptorType)> {
     assert!(shader.bindings.iter().all(|one| one.set == 0), "{:?}", shader.bindings);
     shader.bindings.iter().map(|one| (one.name.as_str(), one.binding, one.kind)).collect()
 }
@@ -109,7 +109,7 @@ fn arrays_have_their_length() {
 #[test]
 fn push_constants_are_as_large_as_their_struct() {
     for name in ["main_pass.frag", "termination.frag:MARK_COPY", "near_neighbor.frag:MARK_COPY+CULL_DISCARD"] {
-        assert_eq!(module(name).push_constants as usize, size_of::<shared::Step>(), "{name}");
+        assert_eq!(module(name).push_constants as usize, size_of::<shared::PushStep>(), "{name}");
     }
     assert_eq!(module("entry.frag").push_constants, 0, "declared in a header, and used nowhere");
     assert_eq!(shader::shader("vulkan/color.frag").push_constants, 16);
@@ -145,7 +145,7 @@ fn specialization_constants_have_their_names_and_ids() {
 #[test]
 fn words_that_are_no_spirv_are_refused_by_name() {
     for words in [&[][..], &[0], &[1, 2, 3, 4, 5, 6], b"#version 460".map(u32::from).as_slice()] {
-        let text = Shader::new("broken.frag", words).unwrap_err().to_string();
+        let text = ShaderModule::new("broken.frag", words).unwrap_err().to_string();
         assert!(text.contains("shader broken.frag"), "{text}");
     }
 }

@@ -5,7 +5,7 @@ mod folder;
 
 use std::path::PathBuf;
 
-use depthleap::error::{Kind, Result};
+use depthleap::error::{ErrorKind, Result};
 use depthleap::glsl::{self, Shader};
 use folder::{alter, copy};
 
@@ -27,7 +27,7 @@ fn what_was_changed_in_the_folder_is_compiled_anew() {
 
     let line = alter(copy.path(), "entry.frag", "entry.w = 2.0;", "entry.w = two;");
     let error = module("entry.frag").unwrap_err();
-    assert_eq!(error.kind, Kind::Input);
+    assert_eq!(error.kind, ErrorKind::Input);
     let place = format!("{}:{line}:15:", copy.path().join("entry.frag").display());
     assert!(error.to_string().contains(&place), "{error}");
     assert!(module("direction.frag").is_ok(), "others still compile");

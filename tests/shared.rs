@@ -17,7 +17,7 @@ use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, Slice, Step, pieces, rows};
+use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, PushStep, Slice, pieces, rows};
 use random::Random;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -73,7 +73,7 @@ fn frame() -> Layout {
 }
 
 fn step() -> Layout {
-    layout!(Step { bound, pass })
+    layout!(PushStep { bound, pass })
 }
 
 fn slice() -> Layout {

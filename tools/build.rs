@@ -19,7 +19,7 @@ use std::sync::Mutex;
 
 use sha2::{Digest, Sha256};
 
-use compile::{Compiled, compile};
+use compile::{CompiledModule, compile};
 use source::{Broken, Source};
 use takes::Takes;
 
@@ -84,13 +84,13 @@ fn table(files: &[String]) -> String {
 }
 
 /// A shader with as few defines as it takes.
-fn plain(source: &Source, file: &str) -> Result<Compiled, Broken> {
+fn plain(source: &Source, file: &str) -> Result<CompiledModule, Broken> {
     let text = source.text(file)?;
     compile(&text, &Takes::of(&text)?.plain())
 }
 
 /// Compiles on all processors; results stand in the order of `shaders`.
-fn compile_all(source: &Source, shaders: &[String]) -> Vec<Result<Compiled, Broken>> {
+fn compile_all(source: &Source, shaders: &[String]) -> Vec<Result<CompiledModule, Broken>> {
     let waiting = Mutex::new(shaders.iter().enumerate());
     let done = Mutex::new(Vec::new());
     std::thread::scope(|scope| {

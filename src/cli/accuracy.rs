@@ -36,7 +36,7 @@ pub struct AccuracyCommand {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Render methods, with commas between; the ways of sampling that are not the scene's are run by the first of them
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser(), default_values = METHODS.map(MethodName::name))]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser(), default_values = METHODS.map(|method| method.name()))]
     method: Vec<MethodName>,
     /// Steps in voxels, with commas between
     #[arg(long, value_name = "VOXELS,...", value_delimiter = ',', default_values = STEPS)]

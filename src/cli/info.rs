@@ -24,7 +24,7 @@ use crate::vulkan::{Device, DeviceInfo, Instance, pick};
   depthleap info
   depthleap info --device nvidia
   depthleap info --json - | jq '.devices[].auto'")]
-pub struct Info {
+pub struct InfoCommand {
     /// Only this device, by its index (a whole number) or a part of its name that no other has
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
@@ -48,7 +48,7 @@ struct DeviceJson<'a> {
     auto: Option<String>,
 }
 
-impl Info {
+impl InfoCommand {
     pub fn run(&self) -> Result<()> {
         let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
         output::check(&outputs)?;

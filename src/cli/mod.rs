@@ -81,7 +81,7 @@ enum Command {
     Compare(compare::CompareCommand),
     Report(report::ReportCommand),
     Plan(Box<plan::PlanCommand>),
-    Info(info::Info),
+    Info(info::InfoCommand),
 }
 
 /// Runs the program with the arguments of the process.

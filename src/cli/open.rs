@@ -25,14 +25,14 @@ pub struct DeviceOptions {
     single_queue: bool,
     /// How passes that nobody takes part in are left out [default: conditional where the driver has it, else readback]
     #[arg(long, value_name = "WAY")]
-    early_end: Option<EarlyEnd>,
+    early_end: Option<EarlyEndArgument>,
     /// Compile the shaders from this folder, laid out like glsl/ [default: those built in]
     #[arg(long, value_name = "DIR")]
     glsl: Option<std::path::PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum EarlyEnd {
+enum EarlyEndArgument {
     /// Conditional rendering: the device decides
     Conditional,
     /// The count of rays left is read back between batches
@@ -63,9 +63,9 @@ impl DeviceOptions {
         let device = self.open_unchecked()?;
         let info = &device.info;
         let early_end = self.early_end.map(|way| match way {
-            EarlyEnd::Conditional => frame::EarlyEnd::Conditional,
-            EarlyEnd::Readback => frame::EarlyEnd::ReadBack,
-            EarlyEnd::Never => frame::EarlyEnd::Never,
+            EarlyEndArgument::Conditional => frame::EarlyEnd::Conditional,
+            EarlyEndArgument::Readback => frame::EarlyEnd::ReadBack,
+            EarlyEndArgument::Never => frame::EarlyEnd::Never,
         });
         if early_end == Some(frame::EarlyEnd::Conditional) && !info.conditional_rendering {
             return Err(Error::device(

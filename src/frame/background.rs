@@ -21,14 +21,14 @@ const FRAMES: usize = 8;
 
 /// The structure a frame reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Served {
+pub struct ServedDistance {
     pub lookup: Lookup,
     /// Frames since the one whose view it was made for; negative before it. None for `omni`, made for every view.
     pub age: Option<i64>,
 }
 
 /// A build and the frame it is for.
-struct Coming {
+struct BuildAhead {
     frame: usize,
     begun: usize,
     lookup: Lookup,
@@ -44,7 +44,7 @@ fn lookup_of(scene: &Scene) -> Result<Option<Lookup>> {
 /// Builds ahead of the frames.
 pub struct Background {
     device: Arc<Device>,
-    coming: Option<Coming>,
+    coming: Option<BuildAhead>,
     /// Made, with the frame they were made for.
     ready: Vec<(usize, Lookup)>,
     /// Frames from the begin of a build to its use.
@@ -60,7 +60,7 @@ impl Background {
     ///
     /// # Errors
     /// What the driver reports.
-    pub fn serve(&mut self, frame: usize, scene: &Scene, resident: &mut Resident) -> Result<Option<Served>> {
+    pub fn serve(&mut self, frame: usize, scene: &Scene, resident: &mut Resident) -> Result<Option<ServedDistance>> {
         let ended = self.coming.as_ref().map_or(Ok(false), |coming| coming.pending.job.finished())?;
         if let Some(coming) = self.coming.take_if(|_| ended) {
             self.lead = (frame - coming.begun).max(1);
@@ -80,9 +80,9 @@ impl Background {
         let age = |made_for: usize| frame as i64 - made_for as i64;
         let best = self.ready.iter().filter(|(_, lookup)| serves(lookup)).min_by_key(|(f, _)| age(*f).abs());
         Ok(Some(match best {
-            Some((made_for, lookup)) => Served { lookup: *lookup, age: Some(age(*made_for)) },
-            None if wanted.view.is_none() => Served { lookup: wanted, age: None },
-            None => Served { lookup: Lookup { distance: Distance::Omni, view: None, ..wanted }, age: None },
+            Some((made_for, lookup)) => ServedDistance { lookup: *lookup, age: Some(age(*made_for)) },
+            None if wanted.view.is_none() => ServedDistance { lookup: wanted, age: None },
+            None => ServedDistance { lookup: Lookup { distance: Distance::Omni, view: None, ..wanted }, age: None },
         }))
     }
 
@@ -107,7 +107,7 @@ impl Background {
             if self.device.separate_compute() {
                 pending.job.advance(usize::MAX, &[])?;
             }
-            self.coming = Some(Coming { frame: ahead, begun: frame, lookup, pending });
+            self.coming = Some(BuildAhead { frame: ahead, begun: frame, lookup, pending });
         }
         let Some(coming) = self.coming.as_mut().filter(|_| !self.device.separate_compute()) else { return Ok(0.0) };
         let begin = Instant::now();

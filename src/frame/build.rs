@@ -12,8 +12,8 @@ use crate::part::resource::Resource;
 use crate::part::{Dispatch, Step, Work};
 use crate::shared::Slice;
 use crate::vulkan::{
-    Buffer, Commands, ComputePipeline, DescriptorSet, Device, Image, Kind, QueryPool, Recorded, Region,
-    Resource as Bound, Sampler, Scope, Submission,
+    Bound, Buffer, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, QueryKind, QueryPool, Recorded,
+    Sampler, Scope, Submission,
 };
 
 /// Cells that the dispatches of a slice go through, some ten milliseconds on a slow device.
@@ -35,7 +35,7 @@ const SAMPLED: vk::ImageLayout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
 
 /// What a resource of a build is on the device.
 #[derive(Clone, Copy)]
-pub enum Given<'a> {
+pub enum Bindable<'a> {
     /// Read texel by texel.
     Image(&'a Image),
     Storage(&'a Buffer),
@@ -70,13 +70,13 @@ impl Job {
         name: &str,
         steps: &[Step],
         pipelines: &mut Pipelines,
-        given: &dyn Fn(Resource) -> Option<Given<'a>>,
+        given: &dyn Fn(Resource) -> Option<Bindable<'a>>,
     ) -> Result<Self> {
         pipelines.prepare(steps)?;
         let mut recorder = Recorder { device, name, commands: None, cells: 0, slices: Vec::new() };
         let sampler = Sampler::new(device, "nearest", false)?;
         let timed = device.compute.timestamp_valid_bits > 0 && device.info.timestamp_valid_bits > 0;
-        let times = if timed { Some(QueryPool::new(device, name, Kind::Timestamp, 2)?) } else { None };
+        let times = if timed { Some(QueryPool::new(device, name, QueryKind::Timestamp, 2)?) } else { None };
         if let Some(times) = &times {
             let commands = recorder.commands()?;
             commands.reset_queries(times, 0..2);
@@ -91,9 +91,9 @@ impl Job {
                         .iter()
                         .filter_map(|(name, resource)| {
                             Some(match given(*resource)? {
-                                Given::Image(image) => (*name, Bound::Sampled(image, &sampler, SAMPLED)),
-                                Given::Storage(buffer) => (*name, Bound::Storage(buffer)),
-                                Given::Uniform(buffer) => (*name, Bound::Uniform(buffer)),
+                                Bindable::Image(image) => (*name, Bound::Sampled(image, &sampler, SAMPLED)),
+                                Bindable::Storage(buffer) => (*name, Bound::Storage(buffer)),
+                                Bindable::Uniform(buffer) => (*name, Bound::Uniform(buffer)),
                             })
                         })
                         .collect();
@@ -102,7 +102,7 @@ impl Job {
                     recorder.dispatch(step, dispatch, &pipeline, &set)?;
                 }
                 Work::Unpack { from, to } => {
-                    if let (Some(Given::Storage(bytes)), Some(Given::Image(image))) = (given(*from), given(*to)) {
+                    if let (Some(Bindable::Storage(bytes)), Some(Bindable::Image(image))) = (given(*from), given(*to)) {
                         recorder.unpack(step, bytes, image)?;
                     }
                 }
@@ -187,11 +187,11 @@ impl Recorder<'_> {
     }
 
     /// What the step reads was written by the steps before it, and what it writes was read there.
-    fn barriers<'a>(&mut self, step: &Step, given: &dyn Fn(Resource) -> Option<Given<'a>>) -> Result<()> {
+    fn barriers<'a>(&mut self, step: &Step, given: &dyn Fn(Resource) -> Option<Bindable<'a>>) -> Result<()> {
         let commands = self.commands()?;
         let mut seen = Vec::new();
         for access in step.accesses.iter().filter(|a| matches!(a.usage, Usage::ComputeRead | Usage::ComputeWrite)) {
-            if let Some(Given::Storage(buffer)) = given(access.resource)
+            if let Some(Bindable::Storage(buffer)) = given(access.resource)
                 && !seen.contains(&access.resource)
             {
                 commands.buffer_barrier(buffer, COMPUTE, COMPUTE);
@@ -238,7 +238,7 @@ impl Recorder<'_> {
         commands.label_begin(&step.name);
         commands.buffer_barrier(bytes, COMPUTE, COPY_READ);
         commands.image_barrier(image, Scope::NONE, COPY_WRITE, vk::ImageLayout::UNDEFINED, target);
-        commands.copy_buffer_to_image(bytes, image, Region { row, ..Region::whole(image) });
+        commands.copy_buffer_to_image(bytes, image, CopyRegion { row, ..CopyRegion::whole(image) });
         commands.image_release(image, COPY_WRITE, target, SAMPLED, graphics);
         commands.label_end();
         Ok(())

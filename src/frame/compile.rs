@@ -1,4 +1,4 @@
-//! Plan to device objects: targets, render passes, framebuffers, pipelines, descriptor sets. Made once, run often.
+//! Plan to device objects: targets, render passes, framebuffers, pipelines, descriptor sets. DeviceObject once, run often.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::made::{self, Made};
+use super::object::{self, DeviceObject};
 use super::pipelines::PipelineKey;
 use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
 use crate::part::access::{Access, Usage};
-use crate::part::resource::{Kind, Origin, Resource};
+use crate::part::resource::{Origin, Resource, ResourceKind};
 use crate::part::{Draw, Step, Work};
 use crate::plan::Plan;
 use crate::resource;
@@ -28,8 +28,8 @@ pub struct Compiled {
     pub steps: Vec<CompiledStep>,
     pub targets: HashMap<Resource, Image>,
     /// Uploads of this frame: its box and its view.
-    pub own: HashMap<Resource, Made>,
-    pub marks_buffer: Option<Made>,
+    pub own: HashMap<Resource, DeviceObject>,
+    pub marks_buffer: Option<DeviceObject>,
     pub region: Region,
 }
 
@@ -58,7 +58,7 @@ struct Compiler<'a> {
     plan: &'a Plan,
     resident: &'a mut Resident,
     targets: HashMap<Resource, Image>,
-    own: HashMap<Resource, Made>,
+    own: HashMap<Resource, DeviceObject>,
     linear: Option<Sampler>,
     nearest: Sampler,
     framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
@@ -103,7 +103,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         });
     }
     let copies = compiler.targets.contains_key(&resource::MARKS);
-    let marks_buffer = copies.then(|| made::empty(device, resource::MARKS_BUFFER, &plan.facts(scene))).transpose()?;
+    let marks_buffer = copies.then(|| object::empty(device, resource::MARKS_BUFFER, &plan.facts(scene))).transpose()?;
     Ok(Compiled {
         steps: compiled,
         targets: compiler.targets,
@@ -166,7 +166,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
 }
 
 /// Uploads what is made anew for every frame.
-fn of_frame(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<HashMap<Resource, Made>> {
+fn of_frame(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<HashMap<Resource, DeviceObject>> {
     let facts = plan.facts(scene);
     let builds = plan.builds.iter().filter(|build| build.of_frame());
     builds
@@ -177,7 +177,7 @@ fn of_frame(device: &Arc<Device>, scene: &Scene, plan: &Plan) -> Result<HashMap<
         .map(|(build, bytes)| {
             let resource = build.asset.resource;
             plan.steps[build.steps.clone()].iter().for_each(|step| device.trace(&step.name));
-            Ok((resource, made::filled(device, resource, &facts, &bytes(&facts))?))
+            Ok((resource, object::filled(device, resource, &facts, &bytes(&facts))?))
         })
         .collect()
 }
@@ -219,7 +219,7 @@ impl Compiler<'_> {
     }
 
     fn set(&mut self, key: &PipelineKey, step: &Step, pipeline: &GraphicsPipeline) -> Result<Arc<DescriptorSet>> {
-        use crate::vulkan::Resource as Bound;
+        use crate::vulkan::Bound;
         let by = (key.clone(), step.accesses.clone());
         if let Some(known) = self.sets.get(&by) {
             return Ok(known.clone());
@@ -232,12 +232,13 @@ impl Compiler<'_> {
                 bound.push((resource.name(), Bound::Input(&self.targets[&resource])));
             } else if let Some(image) = self.image(resource) {
                 let sampler = match (&self.linear, &resource.of.kind) {
-                    (Some(linear), Kind::Texture(texture)) if texture.filtered => linear,
+                    (Some(linear), ResourceKind::Texture(texture)) if texture.filtered => linear,
                     _ => &self.nearest,
                 };
                 bound.push((resource.name(), Bound::Sampled(image, sampler, layout)));
-            } else if let Some(buffer) = self.made(resource).and_then(Made::buffer) {
-                let of = if matches!(resource.of.kind, Kind::Uniform(_)) { Bound::Uniform } else { Bound::Storage };
+            } else if let Some(buffer) = self.made(resource).and_then(DeviceObject::buffer) {
+                let of =
+                    if matches!(resource.of.kind, ResourceKind::Uniform(_)) { Bound::Uniform } else { Bound::Storage };
                 bound.push((resource.name(), of(buffer)));
             }
         }
@@ -248,10 +249,10 @@ impl Compiler<'_> {
     }
 
     fn image(&self, resource: Resource) -> Option<&Image> {
-        self.targets.get(&resource).or_else(|| self.made(resource).and_then(Made::image))
+        self.targets.get(&resource).or_else(|| self.made(resource).and_then(DeviceObject::image))
     }
 
-    fn made(&self, resource: Resource) -> Option<&Made> {
+    fn made(&self, resource: Resource) -> Option<&DeviceObject> {
         self.own.get(&resource).or_else(|| self.resident.made(resource, self.plan.distance))
     }
 }

@@ -13,7 +13,7 @@ use cpu_time::{ProcessTime, ThreadTime};
 
 use super::compile::{Compiled, CompiledStep, compile};
 use super::cpu::Counts;
-use super::made::Made;
+use super::object::DeviceObject;
 use super::resident::Resident;
 use crate::error::Result;
 use crate::part::resource::Resource;
@@ -22,7 +22,7 @@ use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Kind, Place, QueryPool, Region, Scope};
+use crate::vulkan::{Buffer, BufferInfo, Commands, CopyRegion, Device, Place, QueryKind, QueryPool, Scope};
 
 /// What a run measures, besides its wall and CPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,13 +118,17 @@ impl GpuFrame {
             passes: plan.passes,
             size: plan.view.size,
             early_end,
-            occlusion: QueryPool::new(device, "fragments", Kind::Occlusion, steps)?,
+            occlusion: QueryPool::new(device, "fragments", QueryKind::Occlusion, steps)?,
             statistics: if device.info.pipeline_statistics {
-                Some(QueryPool::new(device, "invocations", Kind::Statistics, steps)?)
+                Some(QueryPool::new(device, "invocations", QueryKind::Statistics, steps)?)
             } else {
                 None
             },
-            timestamps: if timed { Some(QueryPool::new(device, "times", Kind::Timestamp, 2 * steps)?) } else { None },
+            timestamps: if timed {
+                Some(QueryPool::new(device, "times", QueryKind::Timestamp, 2 * steps)?)
+            } else {
+                None
+            },
             predicates,
             step_names: compiled.steps.iter().map(|s| s.step.name.clone()).collect(),
             accumulated_layout: vk::ImageLayout::UNDEFINED,
@@ -263,11 +267,11 @@ impl GpuFrame {
         if draw.test.bounds {
             commands.depth_bounds(0.0, draw.bound);
         }
-        let push = shared::Step { bound: draw.bound, pass: compiled.step.pass };
+        let push = shared::PushStep { bound: draw.bound, pass: compiled.step.pass };
         if objects.pipeline.layout.push_constants > 0 {
             commands.push(&objects.pipeline.layout, bytemuck::bytes_of(&push));
         }
-        if let Some(vertices) = self.compiled.own.get(&draw.geometry.vertices).and_then(Made::buffer) {
+        if let Some(vertices) = self.compiled.own.get(&draw.geometry.vertices).and_then(DeviceObject::buffer) {
             commands.vertices(vertices);
         }
         if let Some(pool) = statistics {
@@ -295,7 +299,7 @@ impl GpuFrame {
 
     /// Colour to depth, by way of the buffer.
     fn record_copy(&self, commands: &mut Commands, from: Resource, to: Resource) {
-        let Some(buffer) = self.compiled.marks_buffer.as_ref().and_then(Made::buffer) else { return };
+        let Some(buffer) = self.compiled.marks_buffer.as_ref().and_then(DeviceObject::buffer) else { return };
         let write = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
         let read = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
         let texels = self.texels();
@@ -369,7 +373,7 @@ impl GpuFrame {
         let mut pixels = vec![[0.0f32; 4]; width * height];
         let Some(image) = self.compiled.targets.get(&resource::ACCUMULATED) else { return Ok(pixels) };
         let (texels, format) =
-            super::upload::read_back(&self.device, image, Region::whole(image), self.accumulated_layout)?;
+            super::upload::read_back(&self.device, image, CopyRegion::whole(image), self.accumulated_layout)?;
         self.accumulated_layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let region = self.compiled.region;
         let decoded = super::upload::decode_rgba(&texels, format);
@@ -385,9 +389,9 @@ impl GpuFrame {
         vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
     }
 
-    fn texels(&self) -> Region {
+    fn texels(&self) -> CopyRegion {
         let [width, height] = self.compiled.region.size();
-        Region { buffer_offset: 0, image_offset: [0; 3], extent: [width, height, 1], row: 0 }
+        CopyRegion { buffer_offset: 0, image_offset: [0; 3], extent: [width, height, 1], row: 0 }
     }
 
     /// The whole picture, of which the targets are a part.

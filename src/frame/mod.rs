@@ -6,7 +6,7 @@ pub mod choice;
 pub mod compile;
 pub mod cpu;
 pub mod gpu;
-mod made;
+mod object;
 mod pipelines;
 pub mod resident;
 pub mod schedule;
@@ -15,7 +15,7 @@ pub mod structures;
 pub mod texture_unit;
 mod upload;
 
-pub use background::{Background, Served};
+pub use background::{Background, ServedDistance};
 pub use choice::plan_on;
 pub use cpu::{Counts, CpuFrame};
 pub use gpu::{EarlyEnd, FrameRun, GpuFrame, Measure};

@@ -12,7 +12,7 @@ use crate::part::geometry::Geometry;
 use crate::part::{Constant, DepthTest, Step};
 use crate::vulkan::{
     Blend, ComputePipeline, DepthState, Device, GraphicsPipeline, GraphicsPipelineInfo, RenderPass, RenderPassInfo,
-    Shader,
+    ShaderModule,
 };
 
 /// Steps that agree in all of this share one pipeline.
@@ -29,13 +29,13 @@ pub struct PipelineKey {
 /// Made when first asked for.
 pub struct Pipelines {
     device: Arc<Device>,
-    shaders: HashMap<glsl::Shader, Arc<Shader>>,
+    shaders: HashMap<glsl::Shader, Arc<ShaderModule>>,
     render_passes: HashMap<RenderPassInfo, Arc<RenderPass>>,
     pipelines: HashMap<PipelineKey, Arc<GraphicsPipeline>>,
     compute: HashMap<ComputeKey, Arc<ComputePipeline>>,
 }
 
-/// Shader and specialization constants.
+/// ShaderModule and specialization constants.
 type ComputeKey = (Arc<glsl::Shader>, Vec<Constant>);
 
 impl Pipelines {
@@ -132,11 +132,11 @@ impl Pipelines {
         glsl::prepare(asked.iter().filter(|shader| !self.shaders.contains_key(shader)))
     }
 
-    fn shader(&mut self, shader: &glsl::Shader) -> Result<Arc<Shader>> {
+    fn shader(&mut self, shader: &glsl::Shader) -> Result<Arc<ShaderModule>> {
         if let Some(known) = self.shaders.get(shader) {
             return Ok(known.clone());
         }
-        let made = Arc::new(Shader::new(&shader.to_string(), &glsl::module(shader)?)?);
+        let made = Arc::new(ShaderModule::new(&shader.to_string(), &glsl::module(shader)?)?);
         self.shaders.insert(shader.clone(), made.clone());
         Ok(made)
     }
@@ -148,7 +148,7 @@ fn vertex(geometry: &Geometry) -> glsl::Shader {
 
 /// The constants that a module has. Those it has no use for are gone from its SPIR-V; one that its file declares for no
 /// set of defines is misspelt.
-fn present(shader: &glsl::Shader, module: &Shader, constants: &[Constant]) -> Result<Vec<Constant>> {
+fn present(shader: &glsl::Shader, module: &ShaderModule, constants: &[Constant]) -> Result<Vec<Constant>> {
     let has = |name: &str| module.spec_constants.iter().any(|(n, _)| n == name);
     let (present, absent): (Vec<Constant>, Vec<Constant>) = constants.iter().partition(|(name, _)| has(name));
     for (name, _) in absent {

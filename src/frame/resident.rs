@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use cpu_time::ProcessTime;
 
-use super::build::{self, Given, Job};
-use super::made::{self, Made};
+use super::build::{self, Bindable, Job};
+use super::object::{self, DeviceObject};
 use super::pipelines::Pipelines;
 use super::upload;
 use crate::error::{Error, Result};
@@ -26,16 +26,16 @@ use crate::vulkan::{Device, Image};
 /// Assets of one scene, made when the first plan asks for them.
 pub struct Resident {
     device: Arc<Device>,
-    kept: Vec<Kept>,
+    kept: Vec<KeptAsset>,
     pub(super) pipelines: Pipelines,
     /// The table of pre-integrated classification that is here, or will be.
     table: Option<Arc<PreintegratedTable>>,
 }
 
 /// An asset that is there.
-struct Kept {
+struct KeptAsset {
     asset: Asset,
-    made: Made,
+    made: DeviceObject,
     /// What building it took, pipelines not counted: CPU time of the process on a device that is a CPU or where the host
     /// built it, else device time; milliseconds.
     ms: f64,
@@ -45,9 +45,9 @@ struct Kept {
 pub struct Pending {
     pub job: Job,
     asset: Asset,
-    made: Made,
+    made: DeviceObject,
     /// Live as long as the job.
-    _passing: Vec<(Resource, Made)>,
+    _passing: Vec<(Resource, DeviceObject)>,
 }
 
 impl Resident {
@@ -56,11 +56,11 @@ impl Resident {
     }
 
     /// What a step means by a resource, where distances are made for `lookup`.
-    pub(super) fn made(&self, resource: Resource, lookup: Option<Lookup>) -> Option<&Made> {
+    pub(super) fn made(&self, resource: Resource, lookup: Option<Lookup>) -> Option<&DeviceObject> {
         self.kept(Asset::of(resource, lookup)).map(|kept| &kept.made)
     }
 
-    fn kept(&self, asset: Asset) -> Option<&Kept> {
+    fn kept(&self, asset: Asset) -> Option<&KeptAsset> {
         self.kept.iter().find(|kept| kept.asset == asset)
     }
 
@@ -71,7 +71,7 @@ impl Resident {
 
     /// The distances of that kind.
     pub fn distance(&self, lookup: &Lookup) -> Option<&Image> {
-        self.made(resource::NEAREST_DISTANCE, Some(*lookup)).and_then(Made::image)
+        self.made(resource::NEAREST_DISTANCE, Some(*lookup)).and_then(DeviceObject::image)
     }
 
     /// The distances as the device has them, a byte a cell and octant; none where they were not built.
@@ -156,12 +156,12 @@ impl Resident {
                 (self.taken(pending)?, ms)
             }
         };
-        self.kept.push(Kept { asset, made, ms });
+        self.kept.push(KeptAsset { asset, made, ms });
         Ok(())
     }
 
     /// What the host makes, on the device, and the milliseconds that making it took.
-    fn upload(&mut self, facts: &Facts, resource: Resource, steps: &[Step]) -> Result<(Made, f64)> {
+    fn upload(&mut self, facts: &Facts, resource: Resource, steps: &[Step]) -> Result<(DeviceObject, f64)> {
         steps.iter().for_each(|step| self.device.trace(&step.name));
         let table = self.table(facts.scene);
         let facts = Facts { table: table.as_deref(), ..*facts };
@@ -175,21 +175,21 @@ impl Resident {
             }
         };
         let ms = begin.elapsed().as_secs_f64() * 1e3;
-        Ok((made::filled(&self.device, resource, &facts, &bytes)?, ms))
+        Ok((object::filled(&self.device, resource, &facts, &bytes)?, ms))
     }
 
     /// Records the compute steps of an asset.
     fn record(&mut self, facts: &Facts, asset: Asset, steps: &[Step]) -> Result<Pending> {
-        let made = made::empty(&self.device, asset.resource, facts)?;
-        let mut passing: Vec<(Resource, Made)> = Vec::new();
+        let made = object::empty(&self.device, asset.resource, facts)?;
+        let mut passing: Vec<(Resource, DeviceObject)> = Vec::new();
         for resource in steps.iter().flat_map(|step| step.accesses.iter()).map(|access| access.resource) {
             let there = passing.iter().any(|(of, _)| *of == resource);
             if matches!(resource.of.origin, Origin::Passing) && !there {
-                passing.push((resource, made::empty(&self.device, resource, facts)?));
+                passing.push((resource, object::empty(&self.device, resource, facts)?));
             }
         }
         let kept = &self.kept;
-        let given = |resource: Resource| -> Option<Given> {
+        let given = |resource: Resource| -> Option<Bindable> {
             let of = Asset::of(resource, facts.lookup);
             let passing = passing.iter().find(|(of, _)| *of == resource).map(|(_, made)| made);
             let before = || kept.iter().find(|kept| kept.asset == of).map(|kept| &kept.made);
@@ -201,7 +201,7 @@ impl Resident {
     }
 
     /// What a finished job made, for frames to read.
-    fn taken(&self, pending: Pending) -> Result<Made> {
+    fn taken(&self, pending: Pending) -> Result<DeviceObject> {
         if let (Some(image), Some(last)) = (pending.made.image(), pending.job.last()) {
             build::acquire(&self.device, image, last)?;
         }
@@ -233,7 +233,7 @@ impl Resident {
     pub fn finish(&mut self, pending: Pending, ms: f64) -> Result<()> {
         let asset = pending.asset;
         let made = self.taken(pending)?;
-        self.kept.push(Kept { asset, made, ms });
+        self.kept.push(KeptAsset { asset, made, ms });
         Ok(())
     }
 }

@@ -18,7 +18,7 @@ use crate::part::rows::Method;
 use crate::plan::{self, Choice};
 use crate::probe::correct::{Depth, faults};
 use crate::probe::run::missing;
-use crate::probe::{Case, Compare, Mechanism, Rig, Shader, measure, rig};
+use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, rig};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
@@ -80,13 +80,13 @@ const PROBED: u32 = 64;
 fn cases(form: Form) -> Vec<Case> {
     let case = |mechanism, shader| Case { mechanism, shader, compare: Compare::GreaterOrEqual };
     let tested = match form.cull {
-        Cull::Bounds | Cull::Auto => case(Mechanism::BoundsRead, Shader::Early),
-        Cull::Ztest => case(Mechanism::DepthRead, Shader::Early),
-        Cull::Discard => case(Mechanism::Alive, Shader::Plain),
+        Cull::Bounds | Cull::Auto => case(Mechanism::BoundsRead, CaseShader::Early),
+        Cull::Ztest => case(Mechanism::DepthRead, CaseShader::Early),
+        Cull::Discard => case(Mechanism::Alive, CaseShader::Plain),
     };
     match form.mark {
-        Mark::Fragdepth | Mark::Auto => vec![tested, case(Mechanism::BoundsCompare, Shader::DepthLess)],
-        Mark::FragdepthAny => vec![tested, case(Mechanism::BoundsCompare, Shader::DepthAny)],
+        Mark::Fragdepth | Mark::Auto => vec![tested, case(Mechanism::BoundsCompare, CaseShader::DepthLess)],
+        Mark::FragdepthAny => vec![tested, case(Mechanism::BoundsCompare, CaseShader::DepthAny)],
         Mark::Copy => vec![tested],
     }
 }
@@ -119,7 +119,7 @@ pub fn self_check(device: &Arc<Device>) -> Result<SelfCheck> {
         found.insert(form, verdict);
     }
     for scene in &scenes {
-        let rule = Rule::new(scene, device.info.sub_pixel_bits)?;
+        let rule = TwinRule::new(scene, device.info.sub_pixel_bits)?;
         for form in forms() {
             let verdict = found.entry(form).or_insert(Verdict::Right);
             if *verdict != Verdict::Right {
@@ -159,26 +159,26 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     Ok(Scene { settings, field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
 }
 
-struct Run {
+struct FormRun {
     picture: Vec<[f32; 4]>,
     fragments: Counts,
 }
 
 /// A frame in that form; the host builds what it looks up, since builds are not what is checked.
-fn run_form(resident: &mut Resident, device: &Arc<Device>, scene: &Scene, form: Form) -> Result<Run> {
+fn run_form(resident: &mut Resident, device: &Arc<Device>, scene: &Scene, form: Form) -> Result<FormRun> {
     let plan = plan::plan_for(scene, Choice { form: Some(form), on_host: true, lookup: None })?;
     resident.prepare(scene, &plan)?;
     let mut frame = GpuFrame::new(device, scene, &plan, resident, None)?;
     let run = frame.run(Measure::Counts { statistics: false })?;
-    Ok(Run { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default() })
+    Ok(FormRun { picture: frame.picture()?, fragments: run.fragments.unwrap_or_default() })
 }
 
 /// What every form has to give: the f64 twins' picture and counts.
-struct Rule {
+struct TwinRule {
     frame: cpu::CpuFrame,
 }
 
-impl Rule {
+impl TwinRule {
     fn new(scene: &Scene, sub_pixel_bits: u32) -> Result<Self> {
         let plan = plan::plan(scene, method::papers_form(method::NN_OMNI.name()))?;
         let mut structures = Structures::default();
@@ -187,7 +187,7 @@ impl Rule {
     }
 
     /// What a run has different from the rule, but for rays that f32 cannot decide.
-    fn difference(&self, run: &Run) -> Option<String> {
+    fn difference(&self, run: &FormRun) -> Option<String> {
         /// Largest difference of a channel that rounding of some hundred f32 samples explains.
         const PICTURE: f64 = 1e-4;
         let undecided = self.frame.undecided.iter().filter(|u| **u).count() as u64;

@@ -14,9 +14,7 @@ use crate::math::interpolate::trilinear;
 use crate::resource::texels::texel_format;
 use crate::scene::TextureUnit;
 use crate::scene::texture::{FilterError, TexelFormat};
-use crate::vulkan::{
-    Buffer, BufferInfo, Commands, DescriptorSet, Device, Image, ImageInfo, Place, Resource as Bound, Sampler,
-};
+use crate::vulkan::{Bound, Buffer, BufferInfo, Commands, DescriptorSet, Device, Image, ImageInfo, Place, Sampler};
 
 /// Texels along a side of the measured texture.
 const SIDE: usize = 16;

@@ -6,7 +6,7 @@ use ash::vk;
 
 use crate::error::Result;
 use crate::part::access::Usage;
-use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Image, Place, Region, Scope};
+use crate::vulkan::{Buffer, BufferInfo, Commands, CopyRegion, Device, Image, Place, Scope};
 
 const COPY_READ: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
 const COPY_WRITE: Scope = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
@@ -34,7 +34,7 @@ pub fn image(device: &Arc<Device>, image: &Image, texels: &[u8]) -> Result<()> {
     let mut commands = Commands::begin(device, &device.graphics, "upload")?;
     let (empty, target) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
     commands.image_barrier(image, Scope::NONE, COPY_WRITE, empty, target);
-    commands.copy_buffer_to_image(&staging, image, Region::whole(image));
+    commands.copy_buffer_to_image(&staging, image, CopyRegion::whole(image));
     let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
     commands.image_barrier(image, COPY_WRITE, scope(Usage::Sampled), target, read);
     finish(device, commands)
@@ -51,7 +51,7 @@ fn finish(device: &Arc<Device>, commands: Commands) -> Result<()> {
 pub fn read_back(
     device: &Arc<Device>,
     image: &Image,
-    area: Region,
+    area: CopyRegion,
     layout: vk::ImageLayout,
 ) -> Result<(Vec<u8>, vk::Format)> {
     let count = |extent: [u32; 3]| extent.into_iter().map(u64::from).product::<u64>();
@@ -79,7 +79,7 @@ pub fn read_back(
 /// When memory is short.
 pub fn read_sampled(device: &Arc<Device>, image: &Image) -> Result<Vec<u8>> {
     let sampled = Usage::Sampled.layout();
-    let (texels, _) = read_back(device, image, Region::whole(image), sampled)?;
+    let (texels, _) = read_back(device, image, CopyRegion::whole(image), sampled)?;
     let mut commands = Commands::begin(device, &device.graphics, "read back")?;
     commands.image_barrier(image, COPY_READ, scope(Usage::Sampled), vk::ImageLayout::TRANSFER_SRC_OPTIMAL, sampled);
     finish(device, commands)?;

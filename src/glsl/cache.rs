@@ -26,9 +26,9 @@ const COMPILER: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/compiler"));
 
 /// Stands for everything a module is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Key([u8; HASH]);
+pub struct CacheKey([u8; HASH]);
 
-impl Key {
+impl CacheKey {
     /// The key of a shader with these defines, in the order they are in.
     pub fn of(text: &Text, defines: &[&str]) -> Self {
         let mut hash = Sha256::new();
@@ -69,13 +69,13 @@ impl Cache {
     }
 
     /// Where the module of that key lies, or would lie.
-    pub fn path(&self, key: &Key) -> Option<PathBuf> {
+    pub fn path(&self, key: &CacheKey) -> Option<PathBuf> {
         let name: String = key.0.iter().map(|byte| format!("{byte:02x}")).collect();
         self.folder.as_ref().map(|folder| folder.join(format!("{name}.spv")))
     }
 
     /// The words that were stored with that key; none where they are not there or not as they were written.
-    pub fn load(&self, key: &Key) -> Option<Vec<u32>> {
+    pub fn load(&self, key: &CacheKey) -> Option<Vec<u32>> {
         let file = std::fs::File::open(self.path(key)?).ok()?;
         let mut bytes = Vec::new();
         file.take(LARGEST).read_to_end(&mut bytes).ok()?;
@@ -87,12 +87,12 @@ impl Cache {
     }
 
     /// Stores words for the next time.
-    pub fn store(&self, key: &Key, words: &[u32]) {
+    pub fn store(&self, key: &CacheKey, words: &[u32]) {
         // A cache that cannot be written is slow and nothing else.
         let _ = self.try_store(key, words);
     }
 
-    fn try_store(&self, key: &Key, words: &[u32]) -> io::Result<()> {
+    fn try_store(&self, key: &CacheKey, words: &[u32]) -> io::Result<()> {
         let (Some(folder), Some(path)) = (&self.folder, self.path(key)) else { return Ok(()) };
         std::fs::create_dir_all(folder)?;
         let module: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
@@ -107,6 +107,6 @@ impl Cache {
 }
 
 /// What tells a file that is whole, and under its own name, from any other.
-fn sum(key: &Key, module: &[u8]) -> [u8; HASH] {
+fn sum(key: &CacheKey, module: &[u8]) -> [u8; HASH] {
     Sha256::new().chain_update(key.0).chain_update(module).finalize().into()
 }

@@ -8,7 +8,7 @@ use shaderc::{CompileOptions, Compiler, ResolvedInclude, ShaderKind};
 use super::source::{Broken, Text, stage};
 
 /// What the compiler made of a shader.
-pub struct Compiled {
+pub struct CompiledModule {
     pub words: Vec<u32>,
     /// The compiler's warnings, empty where there are none.
     pub warnings: String,
@@ -21,7 +21,7 @@ pub struct Compiled {
 ///
 /// # Errors
 /// What the compiler says, each fault with its file and line.
-pub fn compile(text: &Text, defines: &[&str]) -> Result<Compiled, Broken> {
+pub fn compile(text: &Text, defines: &[&str]) -> Result<CompiledModule, Broken> {
     let shown = text.shown(&text.file);
     let broken = |text: String| Broken { place: shown.clone(), text };
     let kind = match stage(&text.file) {
@@ -52,7 +52,7 @@ pub fn compile(text: &Text, defines: &[&str]) -> Result<Compiled, Broken> {
             };
             broken(said.lines().map(|line| point(text, line)).collect::<Vec<_>>().join("\n"))
         })?;
-    Ok(Compiled { words: without_source(artifact.as_binary()), warnings: artifact.get_warning_messages() })
+    Ok(CompiledModule { words: without_source(artifact.as_binary()), warnings: artifact.get_warning_messages() })
 }
 
 /// One for the whole process: what it has learned of the language is lost with the last one.

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::cache::{Cache, Key};
+use super::cache::{Cache, CacheKey};
 use super::compile::compile;
 use super::shader::Shader;
 use super::source::{Broken, Source, Text};
@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 pub struct Library {
     source: Source,
     cache: Cache,
-    made: Mutex<HashMap<Key, Arc<[u32]>>>,
+    made: Mutex<HashMap<CacheKey, Arc<[u32]>>>,
 }
 
 impl Library {
@@ -33,7 +33,7 @@ impl Library {
         let text = self.text(shader.file)?;
         let defines: Vec<&str> = shader.defines.iter().copied().collect();
         Takes::of(&text).and_then(|takes| takes.check(&text, &defines)).map_err(broken)?;
-        let key = Key::of(&text, &defines);
+        let key = CacheKey::of(&text, &defines);
         if let Some(made) = self.made().get(&key) {
             return Ok(made.clone());
         }
@@ -71,7 +71,7 @@ impl Library {
         self.source.text(file).map_err(broken)
     }
 
-    fn compiled(&self, text: &Text, defines: &[&str], key: &Key) -> Result<Vec<u32>> {
+    fn compiled(&self, text: &Text, defines: &[&str], key: &CacheKey) -> Result<Vec<u32>> {
         let compiled = compile(text, defines).map_err(broken)?;
         if compiled.warnings.is_empty() {
             self.cache.store(key, &compiled.words);
@@ -82,7 +82,7 @@ impl Library {
         Ok(compiled.words)
     }
 
-    fn made(&self) -> std::sync::MutexGuard<'_, HashMap<Key, Arc<[u32]>>> {
+    fn made(&self) -> std::sync::MutexGuard<'_, HashMap<CacheKey, Arc<[u32]>>> {
         self.made.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

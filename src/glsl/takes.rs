@@ -12,12 +12,12 @@ use super::source::{Broken, Text};
 
 /// One choice: defines that exclude each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Choice {
+struct Alternatives {
     defines: Vec<String>,
     optional: bool,
 }
 
-impl Choice {
+impl Alternatives {
     fn of(text: &str) -> Result<Self, String> {
         let inner = text
             .strip_prefix('[')
@@ -47,7 +47,7 @@ fn is_define(text: &str) -> bool {
 /// What the head of a shader says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Takes {
-    choices: Vec<Choice>,
+    choices: Vec<Alternatives>,
     /// The first line that says it, counted from 1; the first line of a shader that takes nothing.
     line: usize,
 }
@@ -69,7 +69,7 @@ impl Takes {
                 takes.line = index + 1;
             }
             for choice in list.split(',') {
-                let choice = Choice::of(choice.trim()).map_err(|problem| fault(&problem))?;
+                let choice = Alternatives::of(choice.trim()).map_err(|problem| fault(&problem))?;
                 for (at, define) in choice.defines.iter().enumerate() {
                     if choice.defines[..at].contains(define) || takes.choice_of(define).is_some() {
                         return Err(fault(&format!("`{define}` is there twice")));
@@ -81,7 +81,7 @@ impl Takes {
         Ok(takes)
     }
 
-    fn choice_of(&self, define: &str) -> Option<&Choice> {
+    fn choice_of(&self, define: &str) -> Option<&Alternatives> {
         self.choices.iter().find(|choice| choice.defines.iter().any(|one| one == define))
     }
 
@@ -103,7 +103,7 @@ impl Takes {
     pub fn check(&self, text: &Text, defines: &[&str]) -> Result<(), Broken> {
         let fault = |problem: String| Err(text.fault(self.line, &problem));
         if let Some(unknown) = defines.iter().find(|define| self.choice_of(define).is_none()) {
-            let all: Vec<String> = self.choices.iter().map(Choice::words).collect();
+            let all: Vec<String> = self.choices.iter().map(Alternatives::words).collect();
             let all = if all.is_empty() { "no define at all".to_owned() } else { all.join(", ") };
             return fault(format!("the define `{unknown}` is asked for, and this shader takes {all}"));
         }

@@ -1,7 +1,7 @@
 //! Whether a scene fits, asked before anything large is made for it.
 
 use crate::error::{Error, Result};
-use crate::part::resource::Kind;
+use crate::part::resource::ResourceKind;
 use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
@@ -24,7 +24,8 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
     }
     let resources = plan.resources();
     let facts = plan.facts(scene);
-    let of_pixels = resources.iter().filter(|r| matches!(r.of.kind, Kind::Target(_) | Kind::Staging(_)));
+    let of_pixels =
+        resources.iter().filter(|r| matches!(r.of.kind, ResourceKind::Target(_) | ResourceKind::Staging(_)));
     let (needed, there) = (of_pixels.map(|r| r.bytes(&facts)).sum::<u64>(), info.memory_bytes);
     if needed > there {
         return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));

@@ -44,6 +44,13 @@ pub const METHODS: [&Method; 12] = [
     &CPU,
 ];
 
+impl Method {
+    /// The name as settings have it.
+    pub const fn name(&self) -> MethodName {
+        MethodName::new(self.name)
+    }
+}
+
 /// The method of that name; none where there is none.
 pub fn find(name: MethodName) -> Option<&'static Method> {
     METHODS.into_iter().find(|method| method.name == name.name())

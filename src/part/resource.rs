@@ -17,18 +17,18 @@ use crate::vulkan::texel_bytes;
 /// An image or a buffer of a frame, or of a build.
 #[derive(Clone, Copy)]
 pub struct Resource {
-    pub of: &'static Info,
+    pub of: &'static ResourceInfo,
     /// Which of several of a kind: of ranges, the side of their cells; 0 where there is one.
     pub index: u16,
 }
 
 /// What is known of a resource.
-pub struct Info {
+pub struct ResourceInfo {
     /// The name in GLSL, in validation messages, captures, plans and reports.
     pub name: &'static str,
     /// What a texel or an element is, with its unit and its space.
     pub holds: &'static str,
-    pub kind: Kind,
+    pub kind: ResourceKind,
     pub life: Life,
     pub origin: Origin,
 }
@@ -37,7 +37,7 @@ pub struct Info {
 pub type Bytes = fn(&Facts, u16) -> u64;
 
 /// What a resource is on a device.
-pub enum Kind {
+pub enum ResourceKind {
     Vertices(Bytes),
     Uniform(Bytes),
     Storage(Bytes),
@@ -102,7 +102,7 @@ pub struct Facts<'a> {
 
 impl Resource {
     /// The one resource of a kind.
-    pub const fn new(of: &'static Info) -> Self {
+    pub const fn new(of: &'static ResourceInfo) -> Self {
         Self { of, index: 0 }
     }
 
@@ -117,13 +117,13 @@ impl Resource {
 
     /// Whether every frame writes it anew, at the size of the picture.
     pub fn is_target(self) -> bool {
-        matches!(self.of.kind, Kind::Target(_))
+        matches!(self.of.kind, ResourceKind::Target(_))
     }
 
     /// The format of a target; undefined for what is none.
     pub fn format(self, formats: Formats) -> vk::Format {
         match self.of.kind {
-            Kind::Target(format) => format(formats),
+            ResourceKind::Target(format) => format(formats),
             _ => vk::Format::UNDEFINED,
         }
     }
@@ -131,14 +131,15 @@ impl Resource {
     /// Bytes on a device.
     pub fn bytes(self, facts: &Facts) -> u64 {
         match &self.of.kind {
-            Kind::Vertices(bytes) | Kind::Uniform(bytes) | Kind::Storage(bytes) | Kind::Staging(bytes) => {
-                bytes(facts, self.index)
-            }
-            Kind::Texture(texture) => {
+            ResourceKind::Vertices(bytes)
+            | ResourceKind::Uniform(bytes)
+            | ResourceKind::Storage(bytes)
+            | ResourceKind::Staging(bytes) => bytes(facts, self.index),
+            ResourceKind::Texture(texture) => {
                 let texels: usize = (texture.extent)(facts).iter().product();
                 texels as u64 * texel_bytes((texture.format)(facts)).unwrap_or(0)
             }
-            Kind::Target(format) => {
+            ResourceKind::Target(format) => {
                 let texel = texel_bytes(format(facts.scene.settings.formats())).unwrap_or(0);
                 facts.view.region.pixels() * texel
             }

@@ -10,7 +10,7 @@ use super::resource::Resource;
 use super::steps::Steps;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
-use crate::scene::settings::{Distance, MethodName};
+use crate::scene::settings::Distance;
 use crate::scene::view::View;
 use crate::structure::Lookup;
 
@@ -54,11 +54,6 @@ pub struct Method {
 }
 
 impl Method {
-    /// The name as settings have it.
-    pub const fn name(&self) -> MethodName {
-        MethodName::new(self.name)
-    }
-
     /// The form, where it is one of the method's.
     ///
     /// # Errors

@@ -33,7 +33,7 @@ pub enum Mechanism {
 /// What a shader does besides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Shader {
+pub enum CaseShader {
     Plain,
     Early,
     Discards,
@@ -73,7 +73,7 @@ pub enum History {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Case {
     pub mechanism: Mechanism,
-    pub shader: Shader,
+    pub shader: CaseShader,
     pub compare: Compare,
 }
 
@@ -123,7 +123,7 @@ impl Mechanism {
     }
 }
 
-impl Shader {
+impl CaseShader {
     pub const ALL: [Self; 13] = [
         Self::Plain,
         Self::Early,
@@ -242,12 +242,16 @@ impl Case {
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for mechanism in Mechanism::ALL {
-            for shader in Shader::ALL {
+            for shader in CaseShader::ALL {
                 // A shader with early tests must not discard; further depth qualifiers say nothing new there.
                 let makes_sense = !mechanism.in_shader()
                     || matches!(
                         shader,
-                        Shader::Plain | Shader::Buffer | Shader::Image | Shader::DepthAny | Shader::DepthLess
+                        CaseShader::Plain
+                            | CaseShader::Buffer
+                            | CaseShader::Image
+                            | CaseShader::DepthAny
+                            | CaseShader::DepthLess
                     );
                 if !makes_sense {
                     continue;

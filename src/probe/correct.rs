@@ -12,7 +12,7 @@ use crate::error::Result;
 
 /// What differs from the rule in one draw.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fault {
+pub struct CaseFault {
     /// `colour`, `depth`, `count`, `storage image` or `storage buffer`.
     pub what: String,
     pub format: String,
@@ -31,7 +31,7 @@ pub struct Fault {
     pub pixels: [u32; 2],
 }
 
-impl Fault {
+impl CaseFault {
     /// A line that can be pasted into a bug report.
     pub fn line(&self, case: &Case) -> String {
         let [differing, of] = self.pixels;
@@ -69,8 +69,8 @@ pub enum Depth {
 ///
 /// # Errors
 /// What the driver reports.
-pub fn faults(rig: &mut Rig, case: &Case, depth: Depth) -> Result<Vec<Fault>> {
-    let mut found: Vec<Fault> = Vec::new();
+pub fn faults(rig: &mut Rig, case: &Case, depth: Depth) -> Result<Vec<CaseFault>> {
+    let mut found: Vec<CaseFault> = Vec::new();
     for setup in setups(case, rig.precision, depth) {
         let histories = if depth == Depth::Full { &History::ALL[..] } else { &[History::Copy][..] };
         for &history in histories {
@@ -151,14 +151,14 @@ fn inputs(rig: &Rig, case: &Case, setup: Setup, history: History) -> Vec<Input> 
 }
 
 /// What was left against what the rule says.
-pub fn differences(format: vk::Format, precise: bool, case: &Case, input: &Input, left: &Left) -> Vec<Fault> {
+pub fn differences(format: vk::Format, precise: bool, case: &Case, input: &Input, left: &Left) -> Vec<CaseFault> {
     let precision = Precision::of(format);
     let fragment =
         |i: usize| Fragment { stored: input.stored[i], written: input.written[i], stencil: input.stencil[i] == 1 };
     let rule = |i: usize| case.expected(precision, &input.setup, &fragment(i));
     let pixels = input.stored.len();
     let writes = case.shader.conservative().is_some();
-    let fault = |what: &str, at: Option<usize>, expected: f64, got: f64, differing: usize| Fault {
+    let fault = |what: &str, at: Option<usize>, expected: f64, got: f64, differing: usize| CaseFault {
         what: what.to_owned(),
         format: format_name(format).to_owned(),
         history: input.history,

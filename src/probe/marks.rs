@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::case::{Case, Compare, Mechanism, Shader};
+use super::case::{Case, CaseShader, Compare, Mechanism};
 use super::measure::{ProbeClock, Timed, input};
 use super::pattern::Pattern;
 use super::rig::{ALL, Ask, FROM, Rig, TESTED, TO};
 use crate::error::Result;
-use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Place, Region, vk};
+use crate::vulkan::{Buffer, BufferInfo, Commands, CopyRegion, Device, Place, vk};
 
 /// Times of a pass that marks every pixel, milliseconds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ pub struct MarkCost {
     pub copy_ms: Vec<f64>,
 }
 
-const fn case(shader: Shader) -> Case {
+const fn case(shader: CaseShader) -> Case {
     Case { mechanism: Mechanism::DepthWrite, shader, compare: Compare::GreaterOrEqual }
 }
 
@@ -30,7 +30,7 @@ const fn case(shader: Shader) -> Case {
 /// What the driver reports.
 pub fn mark_cost(device: &Arc<Device>, clock: ProbeClock, side: u32, rounds: usize) -> Result<MarkCost> {
     let mut rig = Rig::new(device, vk::Format::D32_SFLOAT, side)?;
-    let (fragdepth, early) = (case(Shader::DepthLess), case(Shader::Early));
+    let (fragdepth, early) = (case(CaseShader::DepthLess), case(CaseShader::Early));
     let draw = input(&rig, &fragdepth, Pattern::None, 1);
     let by_fragdepth = Timed::new(&mut rig, &fragdepth, &draw)?;
 
@@ -40,10 +40,10 @@ pub fn mark_cost(device: &Arc<Device>, clock: ProbeClock, side: u32, rounds: usi
     let between = Buffer::new(device, info)?;
     let mut commands = Commands::begin(device, &device.graphics, "mark by copy")?;
     rig.record(&mut commands, &early, &draw, Ask::Time)?;
-    commands.copy_image_to_buffer(&rig.color, &between, Region::whole(&rig.color));
+    commands.copy_image_to_buffer(&rig.color, &between, CopyRegion::whole(&rig.color));
     commands.buffer_barrier(&between, ALL, ALL);
     commands.image_barrier(&rig.depth, ALL, ALL, FROM, TO);
-    commands.copy_buffer_to_image(&between, &rig.depth, Region::whole(&rig.depth));
+    commands.copy_buffer_to_image(&between, &rig.depth, CopyRegion::whole(&rig.depth));
     commands.image_barrier(&rig.depth, ALL, ALL, TO, TESTED);
     rig.stamp(&mut commands);
     let by_copy = Timed::of(commands.finish()?);

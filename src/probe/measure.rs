@@ -10,7 +10,7 @@ use super::decide::{CullingVerdict, MeasuredWork, decide, doubtful, saved, tile,
 use super::pattern::Pattern;
 use super::rig::{Ask, Input, Rig};
 use super::statistics::{Known, doubt};
-use super::{Mechanism, Shader};
+use super::{CaseShader, Mechanism};
 use crate::error::Result;
 use crate::vulkan::{Commands, DeviceInfo, DeviceKind, Recorded};
 
@@ -158,7 +158,7 @@ fn invocations(rig: &mut Rig, case: &Case, input: &Input) -> Result<Option<u64>>
 
 /// A case whose counts and whose cost are known: early tests before a shader that changes nothing else.
 const KNOWN: Case =
-    Case { mechanism: Mechanism::DepthRead, shader: Shader::Early, compare: super::Compare::GreaterOrEqual };
+    Case { mechanism: Mechanism::DepthRead, shader: CaseShader::Early, compare: super::Compare::GreaterOrEqual };
 
 /// Why the driver's counts of invocations are not believed; none where they are.
 ///

@@ -23,8 +23,8 @@ pub mod rule;
 pub mod run;
 pub mod statistics;
 
-pub use case::{Case, Compare, History, Mechanism, Shader};
-pub use correct::Fault;
+pub use case::{Case, CaseShader, Compare, History, Mechanism};
+pub use correct::CaseFault;
 pub use decide::{Culling, CullingVerdict};
 pub use pattern::Pattern;
 pub use record::Probe;

@@ -1,10 +1,10 @@
 //! `probe.json`: every number that was measured, and the reference of its format. Keys are those of the structures here
-//! and of [`Fault`], [`Cost`], [`CullingVerdict`](super::CullingVerdict), [`MarkCost`]; times are milliseconds, one for each repetition.
+//! and of [`CaseFault`], [`Cost`], [`CullingVerdict`](super::CullingVerdict), [`MarkCost`]; times are milliseconds, one for each repetition.
 
 use serde::{Deserialize, Serialize};
 
 use super::case::Case;
-use super::correct::Fault;
+use super::correct::CaseFault;
 use super::decide::Culling;
 use super::marks::MarkCost;
 use super::measure::{Cost, ProbeClock};
@@ -33,7 +33,7 @@ pub struct Probe {
     pub quick: bool,
     /// Depth formats asked for; the first is that of `cost` (a stencil test: the first that has a stencil).
     pub formats: Vec<String>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<MechanismRecord>,
     pub marks: MarkCost,
 }
 
@@ -66,7 +66,7 @@ impl From<&DeviceInfo> for DeviceRecord {
 
 /// A mechanism with a shader.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Line {
+pub struct MechanismRecord {
     #[serde(flatten)]
     pub case: Case,
     pub promise: Promise,
@@ -84,7 +84,7 @@ pub struct Line {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Correct {
     pub format: String,
-    pub faults: Vec<Fault>,
+    pub faults: Vec<CaseFault>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,12 +93,12 @@ pub struct Other {
     pub cost: Cost,
 }
 
-impl Line {
+impl MechanismRecord {
     pub fn culling(&self) -> Option<Culling> {
         self.cost.as_ref().map(|cost| cost.verdict.culling)
     }
 
-    pub fn faults(&self) -> impl Iterator<Item = &Fault> {
+    pub fn faults(&self) -> impl Iterator<Item = &CaseFault> {
         self.correct.iter().flat_map(|correct| &correct.faults)
     }
 

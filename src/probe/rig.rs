@@ -11,9 +11,9 @@ use super::rule::Setup;
 use crate::error::Result;
 use crate::glsl;
 use crate::vulkan::{
-    Attachment, Blend, Buffer, BufferInfo, Commands, Dependency, DepthState, DescriptorSet, Device, Framebuffer,
-    GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Kind, Place, QueryPool, Region, RenderPass,
-    RenderPassInfo, Resource, Role, Sampler, Scope, Shader, has_stencil,
+    Attachment, Blend, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DepthState, DescriptorSet, Device,
+    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, QueryKind, QueryPool, RenderPass,
+    RenderPassInfo, Role, Sampler, Scope, ShaderModule, has_stencil,
 };
 
 const COLOR: vk::Format = vk::Format::R32_SFLOAT;
@@ -83,12 +83,12 @@ pub struct Rig {
     occlusion: QueryPool,
     pub(super) statistics: Option<QueryPool>,
     pub(super) timestamps: Option<QueryPool>,
-    vertex: Shader,
-    pipelines: Arc<Mutex<Pipelines>>,
+    vertex: ShaderModule,
+    pipelines: Arc<Mutex<CasePipelines>>,
 }
 
 /// By case; none for the draw that fills.
-type Pipelines = HashMap<Option<Case>, Arc<GraphicsPipeline>>;
+type CasePipelines = HashMap<Option<Case>, Arc<GraphicsPipeline>>;
 
 /// Where in the upload buffer things stand, in bytes of a pixel: depth, stored, written (4 each), stencil.
 const PARTS: u64 = 13;
@@ -155,9 +155,9 @@ impl Rig {
             depth,
             passes,
             sampler: Sampler::new(device, "probe", false)?,
-            occlusion: query(Kind::Occlusion, 1)?,
-            statistics: has_statistics.then(|| query(Kind::Statistics, 1)).transpose()?,
-            timestamps: has_time.then(|| query(Kind::Timestamp, 2)).transpose()?,
+            occlusion: query(QueryKind::Occlusion, 1)?,
+            statistics: has_statistics.then(|| query(QueryKind::Statistics, 1)).transpose()?,
+            timestamps: has_time.then(|| query(QueryKind::Timestamp, 2)).transpose()?,
             vertex: compiled(&vertex())?,
             pipelines: Arc::default(),
         })
@@ -189,7 +189,7 @@ impl Rig {
         let mut commands = Commands::begin(&device, &device.graphics, &case.name())?;
         self.record(&mut commands, case, input, Ask::Samples)?;
         let pixels = self.pixels();
-        let region = |image: &Image, at: u64| Region { buffer_offset: at * pixels, ..Region::whole(image) };
+        let region = |image: &Image, at: u64| CopyRegion { buffer_offset: at * pixels, ..CopyRegion::whole(image) };
         commands.copy_image_to_buffer(&self.color, &self.read, region(&self.color, 0));
         commands.copy_image_to_buffer(&self.depth, &self.read, region(&self.depth, 4));
         commands.image_barrier(&self.touched, ALL, ALL, vk::ImageLayout::GENERAL, FROM);
@@ -220,7 +220,7 @@ impl Rig {
         let mut commands = Commands::begin(&self.device, &self.device.graphics, "probe input")?;
         for (image, at) in [(&self.stored, 4), (&self.written, 8)] {
             commands.image_barrier(image, ALL, ALL, vk::ImageLayout::UNDEFINED, TO);
-            let region = Region { buffer_offset: at * pixels, ..Region::whole(image) };
+            let region = CopyRegion { buffer_offset: at * pixels, ..CopyRegion::whole(image) };
             commands.copy_buffer_to_image(&self.upload, image, region);
             commands.image_barrier(image, ALL, ALL, TO, READ);
         }
@@ -297,7 +297,7 @@ impl Rig {
         let nothing = vk::ImageLayout::UNDEFINED;
         if input.history == History::Copy {
             commands.image_barrier(&self.depth, ALL, ALL, nothing, TO);
-            commands.copy_buffer_to_image(&self.upload, &self.depth, Region::whole(&self.depth));
+            commands.copy_buffer_to_image(&self.upload, &self.depth, CopyRegion::whole(&self.depth));
             if has_stencil(self.format) {
                 // Aspects share memory, and copies of them are not ordered.
                 commands.image_barrier(&self.depth, ALL, ALL, TO, TO);
@@ -318,10 +318,10 @@ impl Rig {
 
     fn set(&self, pipeline: &GraphicsPipeline) -> Result<DescriptorSet> {
         let resources = [
-            ("stored", Resource::Sampled(&self.stored, &self.sampler, READ)),
-            ("written", Resource::Sampled(&self.written, &self.sampler, READ)),
-            ("counter", Resource::Storage(&self.counter)),
-            ("touched", Resource::StorageImage(&self.touched)),
+            ("stored", Bound::Sampled(&self.stored, &self.sampler, READ)),
+            ("written", Bound::Sampled(&self.written, &self.sampler, READ)),
+            ("counter", Bound::Storage(&self.counter)),
+            ("touched", Bound::StorageImage(&self.touched)),
         ];
         DescriptorSet::new(&self.device, &pipeline.name, &pipeline.layout, &resources)
     }
@@ -390,8 +390,8 @@ pub fn shaders(cases: &[Case]) -> Vec<glsl::Shader> {
     cases.iter().map(Case::fragment).chain([vertex(), fill()]).collect()
 }
 
-fn compiled(shader: &glsl::Shader) -> Result<Shader> {
-    Shader::new(&shader.to_string(), &glsl::module(shader)?)
+fn compiled(shader: &glsl::Shader) -> Result<ShaderModule> {
+    ShaderModule::new(&shader.to_string(), &glsl::module(shader)?)
 }
 
 fn render_pass(format: vk::Format, load: vk::AttachmentLoadOp) -> RenderPassInfo {

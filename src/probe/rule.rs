@@ -86,7 +86,7 @@ impl Case {
         }
     }
 
-    /// A draw in which a stored depth of [`Stored::alive`] passes and one of [`Stored::dead`] does not, by the mechanism
+    /// A draw in which a stored depth of [`StoredDepths::alive`] passes and one of [`StoredDepths::dead`] does not, by the mechanism
     /// alone and whatever the shader writes.
     pub fn setup(&self) -> Setup {
         let drawn = match self.compare {
@@ -96,13 +96,13 @@ impl Case {
         Setup { drawn, bounds: if self.mechanism.in_shader() { [0.0, 0.4] } else { [0.2, 0.4] } }
     }
 
-    pub fn stored(&self) -> Stored {
+    pub fn stored(&self) -> StoredDepths {
         let dead = match (self.mechanism, self.compare) {
             (Mechanism::DepthRead | Mechanism::DepthWrite, Compare::GreaterOrEqual) => 0.96875,
             (Mechanism::DepthRead | Mechanism::DepthWrite, Compare::LessOrEqual) => 0.015625,
             _ => 0.5625,
         };
-        Stored { alive: 0.3125, dead }
+        StoredDepths { alive: 0.3125, dead }
     }
 }
 
@@ -150,9 +150,9 @@ impl Case {
     }
 }
 
-/// Stored depths of the two halves of a pattern.
+/// StoredDepths depths of the two halves of a pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stored {
+pub struct StoredDepths {
     pub alive: f32,
     pub dead: f32,
 }

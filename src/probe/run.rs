@@ -7,7 +7,7 @@ use super::correct::{Depth, faults};
 use super::decide::Culling;
 use super::marks::{MarkCost, mark_cost};
 use super::measure::{How, ProbeClock, cost, rejection_rate, statistics, work};
-use super::record::{Correct, Line, Other};
+use super::record::{Correct, MechanismRecord, Other};
 use super::rig::{Rig, shaders};
 use crate::error::{Error, Result};
 use crate::glsl;
@@ -21,13 +21,13 @@ const TIMED: u32 = 256;
 const MARKED: u32 = 512;
 
 /// What was found, without what the program knows of itself.
-pub struct Found {
+pub struct Findings {
     pub clock: ProbeClock,
     pub statistics: Option<String>,
     pub work: u32,
     pub sides: [u32; 3],
     pub formats: Vec<String>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<MechanismRecord>,
     pub marks: MarkCost,
 }
 
@@ -50,7 +50,7 @@ pub fn missing(device: &Device, case: &Case) -> Option<String> {
 ///
 /// # Errors
 /// What the driver reports.
-pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Found> {
+pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Findings> {
     let cases: Vec<Case> = Case::all().into_iter().filter(|case| missing(device, case).is_none()).collect();
     glsl::prepare(&shaders(&cases))?;
     let clock = ProbeClock::of(&device.info);
@@ -76,7 +76,7 @@ pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Fo
     }
     say("marks");
     let marks = mark_cost(device, clock, MARKED, if quick { 5 } else { 15 })?;
-    Ok(Found {
+    Ok(Findings {
         clock,
         statistics: doubt,
         work: how.work,
@@ -87,8 +87,15 @@ pub fn probe(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Fo
     })
 }
 
-fn line(device: &Device, benches: &mut [Bench], rates: &mut Rig, case: &Case, how: &How, quick: bool) -> Result<Line> {
-    let mut line = Line {
+fn line(
+    device: &Device,
+    benches: &mut [Bench],
+    rates: &mut Rig,
+    case: &Case,
+    how: &How,
+    quick: bool,
+) -> Result<MechanismRecord> {
+    let mut line = MechanismRecord {
         case: *case,
         promise: case.promise(),
         missing: missing(device, case),

@@ -25,14 +25,14 @@ pub use scene::{scene, scene_of, settings, settings_from_json};
 pub use transfer::transfer;
 
 use self::packed::{Members, Packing};
-use self::source::Source;
+use self::source::ByteSource;
 use crate::error::{Error, Result};
 use crate::scene::Volume;
 use crate::scene::settings::{Component, Orientation};
 
 /// What is taken of a file that holds more than one scalar volume, and how it is laid into volume space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Choice<'a> {
+pub struct ReadChoice<'a> {
     /// The value that is taken of several values of a voxel.
     pub component: Option<Component>,
     /// The volume that is taken of a sequence, or the slice of a stack.
@@ -49,7 +49,7 @@ pub struct Format {
     pub extensions: &'static [&'static str],
     /// How its files begin.
     pub magic: &'static [u8],
-    read: fn(&Path, Source, &Choice) -> Result<Volume>,
+    read: fn(&Path, ByteSource, &ReadChoice) -> Result<Volume>,
 }
 
 pub static FORMATS: [Format; 1] =
@@ -66,7 +66,7 @@ const BYTE_ORDER_MARK: &[u8] = &[0xef, 0xbb, 0xbf];
 /// # Errors
 /// As [`volume_with`].
 pub fn volume(path: &Path, raw: Option<RawLayout>) -> Result<Volume> {
-    volume_with(path, raw, &Choice::default())
+    volume_with(path, raw, &ReadChoice::default())
 }
 
 /// The volume in a file: by its first bytes, also where gzip packed it, else by its ending; with `raw`, bare voxels in that
@@ -75,7 +75,7 @@ pub fn volume(path: &Path, raw: Option<RawLayout>) -> Result<Volume> {
 /// # Errors
 /// When the file cannot be read, is of no known format, does not hold what its header or `raw` says, or not what is
 /// chosen of it.
-pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Result<Volume> {
+pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &ReadChoice) -> Result<Volume> {
     let (mut file, length) = open(path)?;
     let start = start(&mut file).map_err(|e| unreadable(path, &e))?;
     let by_magic = by_magic(&start);
@@ -96,11 +96,12 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Resu
             raw::volume(path, &layout)?
         }
         (Some(format), None) => {
-            let source = if in_gzip.is_some() { Source::packed(file, length) } else { Source::plain(file, length) };
+            let source =
+                if in_gzip.is_some() { ByteSource::packed(file, length) } else { ByteSource::plain(file, length) };
             (format.read)(path, source, choice)?
         }
         (None, None) => match by_extension(path) {
-            Some(format) => (format.read)(path, Source::plain(file, length), choice)?,
+            Some(format) => (format.read)(path, ByteSource::plain(file, length), choice)?,
             None => return Err(unknown(path, length)),
         },
     };
@@ -118,7 +119,7 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &Choice) -> Resu
     Ok(volume)
 }
 
-impl Choice<'_> {
+impl ReadChoice<'_> {
     /// Whether what is chosen is there in what holds one scalar volume: the first component of the first frame.
     ///
     /// # Errors

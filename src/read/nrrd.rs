@@ -1,6 +1,6 @@
 //! NRRD volumes, versions 1 to 5 and before, header attached or detached.
 //!
-//! Source: "Definition of NRRD File Format" of the Teem library (teem.sourceforge.net/nrrd/format.html).
+//! ByteSource: "Definition of NRRD File Format" of the Teem library (teem.sourceforge.net/nrrd/format.html).
 //! Departures:
 //! 1. One scalar volume is taken: of several values a voxel the chosen component, of several volumes the chosen frame.
 //!    The origin is not kept.
@@ -22,8 +22,8 @@ use std::path::Path;
 use self::data::Data;
 use self::header::Header;
 use self::names::{Names, Several};
-use super::source::Source;
-use super::{Choice, raw, voxels};
+use super::source::ByteSource;
+use super::{ReadChoice, raw, voxels};
 use crate::error::{Error, Result};
 use crate::scene::volume::{Volume, Voxels};
 
@@ -35,7 +35,7 @@ const MOST_NAMED: usize = 3;
 /// # Errors
 /// When a file cannot be read, its header is not NRRD or says something this reader does not know, the data are not
 /// what the header promises, or the choice does not fit the file.
-pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume> {
+pub fn volume(path: &Path, mut source: ByteSource, choice: &ReadChoice) -> Result<Volume> {
     let most = source.most;
     let header = header::read(path, &mut source, most)?;
     let roles = roles::of(path, &header.axes, choice)?;
@@ -60,7 +60,7 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
             let header_path = path;
             let path = folder.join(name);
             let (file, length) = data_file(header_path, &path)?;
-            let mut source = Source::plain(file, length);
+            let mut source = ByteSource::plain(file, length);
             let behind =
                 Data { path: &path, header: &header, source: &mut source, count, bytes }.append(&mut values)?;
             warnings.extend(behind.map(|what| format!("{} holds {what}, which is not read", path.display())));
@@ -71,7 +71,7 @@ pub fn volume(path: &Path, mut source: Source, choice: &Choice) -> Result<Volume
             warnings.extend(joined(path, &header, several, share, &mut values)?);
         }
     }
-    let place::Place { picked, spacing, turn, notes, warnings: more } = place;
+    let place::DataPlace { picked, spacing, turn, notes, warnings: more } = place;
     let mut volume = Volume::new(path.display().to_string(), picked.dims, spacing, picked.of(values, choice.no_data))?;
     volume.turn = turn;
     volume.notes = notes;
@@ -97,7 +97,7 @@ fn joined(
         let header_path = path;
         let path = folder.join(name);
         let (file, length) = data_file(header_path, &path)?;
-        let mut source = Source::plain(file, length);
+        let mut source = ByteSource::plain(file, length);
         let data = Data { path: &path, header, source: &mut source, count, bytes };
         if let Some(what) = data.append(values)? {
             with_more += 1;
@@ -119,7 +119,7 @@ fn data_file(header: &Path, path: &Path) -> Result<(File, u64)> {
 }
 
 /// What lies behind a file that is packed as a whole.
-fn packed_rest(path: &Path, source: Source) -> Result<Option<String>> {
+fn packed_rest(path: &Path, source: ByteSource) -> Result<Option<String>> {
     let behind = source.behind().map_err(|e| super::unreadable(path, &e))?;
     Ok((behind > 0).then(|| format!("{behind} bytes behind what gzip packed")))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::{ByteSkip, Choice, RawLayout};
+use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
 use crate::scene::settings::{Endian, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
 use crate::scene::{Camera, Field, Scene, TextureUnit, Volume, builtin};
@@ -108,7 +108,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {
     let raw = raw_layout(settings)?;
-    let choice = Choice {
+    let choice = ReadChoice {
         component: settings.component,
         frame: settings.frame,
         orientation: settings.orientation,

@@ -14,7 +14,7 @@ enum Stream {
 }
 
 /// A file that is read from its begin to its end.
-pub struct Source {
+pub struct ByteSource {
     stream: Stream,
     /// Bytes that are left; none where the file is packed and nobody knows.
     left: Option<u64>,
@@ -24,7 +24,7 @@ pub struct Source {
     length: u64,
 }
 
-impl Source {
+impl ByteSource {
     pub fn plain(file: File, length: u64) -> Self {
         Self { stream: Stream::Plain(BufReader::new(file)), left: Some(length), most: length, length }
     }
@@ -65,7 +65,7 @@ impl Source {
     }
 }
 
-impl Read for Source {
+impl Read for ByteSource {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = match &mut self.stream {
             Stream::Plain(stream) => stream.read(buffer),
@@ -76,7 +76,7 @@ impl Read for Source {
     }
 }
 
-impl BufRead for Source {
+impl BufRead for ByteSource {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         match &mut self.stream {
             Stream::Plain(stream) => stream.fill_buf(),

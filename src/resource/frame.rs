@@ -4,17 +4,19 @@ use std::borrow::Cow;
 
 use ash::vk;
 
-use crate::part::resource::{Info, Kind, Life, Origin, Resource};
+use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::settings::{Accumulate, DepthFormat, Formats};
 use crate::shared;
 use crate::vulkan::texel_bytes;
 
 /// The box's triangles, the front ones first.
 pub const BOX: Resource = Resource::new(&BOX_INFO);
-static BOX_INFO: Info = Info {
+static BOX_INFO: ResourceInfo = ResourceInfo {
     name: "box",
     holds: "corners of triangles in clip space, pixels of the view; the front ones, then the back ones",
-    kind: Kind::Vertices(|facts, _| (size_of::<[f32; 3]>() * (facts.view.front.len() + facts.view.back.len())) as u64),
+    kind: ResourceKind::Vertices(|facts, _| {
+        (size_of::<[f32; 3]>() * (facts.view.front.len() + facts.view.back.len())) as u64
+    }),
     life: Life::Frame,
     origin: Origin::Host(|facts| {
         let corners: Vec<[f32; 3]> = [facts.view.front.as_slice(), &facts.view.back].concat();
@@ -24,10 +26,10 @@ static BOX_INFO: Info = Info {
 
 /// The view and the sampling.
 pub const FRAME: Resource = Resource::new(&FRAME_INFO);
-static FRAME_INFO: Info = Info {
+static FRAME_INFO: ResourceInfo = ResourceInfo {
     name: "frame",
     holds: "rays of the view and the sampling, `Frame` of frame.glsl",
-    kind: Kind::Uniform(|_, _| size_of::<shared::Frame>() as u64),
+    kind: ResourceKind::Uniform(|_, _| size_of::<shared::Frame>() as u64),
     life: Life::Frame,
     origin: Origin::Host(|facts| {
         let region = facts.view.region;
@@ -37,23 +39,23 @@ static FRAME_INFO: Info = Info {
 };
 
 /// An image that frames draw into.
-const fn target(name: &'static str, holds: &'static str, format: fn(Formats) -> vk::Format) -> Info {
-    Info { name, holds, kind: Kind::Target(format), life: Life::Frame, origin: Origin::Drawn }
+const fn target(name: &'static str, holds: &'static str, format: fn(Formats) -> vk::Format) -> ResourceInfo {
+    ResourceInfo { name, holds, kind: ResourceKind::Target(format), life: Life::Frame, origin: Origin::Drawn }
 }
 
 /// ENTRY [KW03 §2.1].
 pub const ENTRY: Resource = Resource::new(&ENTRY_INFO);
-static ENTRY_INFO: Info =
+static ENTRY_INFO: ResourceInfo =
     target("entry", "where the ray enters, texture coordinates", |_| vk::Format::R32G32B32A32_SFLOAT);
 
 /// DIR [KW03 §2.1].
 pub const DIRECTION: Resource = Resource::new(&DIRECTION_INFO);
-static DIRECTION_INFO: Info =
+static DIRECTION_INFO: ResourceInfo =
     target("direction", "unit direction and length of the ray, volume space", |_| vk::Format::R32G32B32A32_SFLOAT);
 
 /// RES [KW03 §2.1].
 pub const ACCUMULATED: Resource = Resource::new(&ACCUMULATED_INFO);
-static ACCUMULATED_INFO: Info =
+static ACCUMULATED_INFO: ResourceInfo =
     target("accumulated", "what the ray has gathered, premultiplied linear RGBA", |formats| match formats.accumulate {
         Accumulate::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
         Accumulate::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
@@ -62,7 +64,7 @@ static ACCUMULATED_INFO: Info =
 
 /// The depth buffer.
 pub const STORED: Resource = Resource::new(&STORED_INFO);
-static STORED_INFO: Info =
+static STORED_INFO: ResourceInfo =
     target("stored", "the mark of the ray, a depth from 0 to 1", |formats| match formats.depth {
         DepthFormat::D32 => vk::Format::D32_SFLOAT,
         DepthFormat::D24 => vk::Format::X8_D24_UNORM_PACK32,
@@ -71,7 +73,7 @@ static STORED_INFO: Info =
 
 /// Decisions of an intermediate pass on their way to the depth buffer, in the same bytes.
 pub const MARKS: Resource = Resource::new(&MARKS_INFO);
-static MARKS_INFO: Info = target("marks", "the bytes of a mark to come", |formats| marks(formats.depth));
+static MARKS_INFO: ResourceInfo = target("marks", "the bytes of a mark to come", |formats| marks(formats.depth));
 
 fn marks(depth: DepthFormat) -> vk::Format {
     match depth {
@@ -82,10 +84,10 @@ fn marks(depth: DepthFormat) -> vk::Format {
 
 /// Between a colour and a depth image a copy needs a buffer.
 pub const MARKS_BUFFER: Resource = Resource::new(&MARKS_BUFFER_INFO);
-static MARKS_BUFFER_INFO: Info = Info {
+static MARKS_BUFFER_INFO: ResourceInfo = ResourceInfo {
     name: "marks_buffer",
     holds: "marks between the two images",
-    kind: Kind::Staging(|facts, _| {
+    kind: ResourceKind::Staging(|facts, _| {
         let texel = texel_bytes(marks(facts.scene.settings.formats().depth)).unwrap_or(0);
         facts.view.region.pixels() * texel
     }),

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use ash::vk;
 
 use super::texels::{Texels, texel_format};
-use crate::part::resource::{Facts, Info, Kind, Life, Origin, Resource, Texture};
+use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
 use crate::scene::texture::TextureChoice;
 use crate::shared;
 use crate::structure::cells::Values;
@@ -13,10 +13,10 @@ use crate::truth::preintegrated;
 
 /// The scalar field.
 pub const VOLUME: Resource = Resource::new(&VOLUME_INFO);
-static VOLUME_INFO: Info = Info {
+static VOLUME_INFO: ResourceInfo = ResourceInfo {
     name: "volume",
     holds: "scalar values at voxel centres, as the texture keeps them",
-    kind: Kind::Texture(Texture {
+    kind: ResourceKind::Texture(Texture {
         format: |facts| texel_format(TextureChoice::of(facts.scene).format),
         extent: |facts| facts.scene.field.dims(),
         flat: false,
@@ -44,10 +44,10 @@ fn bytes_of(values: Values) -> Cow<[u8]> {
 
 /// Cells that stay transparent.
 pub const HOLES: Resource = Resource::new(&HOLES_INFO);
-static HOLES_INFO: Info = Info {
+static HOLES_INFO: ResourceInfo = ResourceInfo {
     name: "holes",
     holds: "1 for a cell that stays transparent",
-    kind: Kind::Texture(Texture {
+    kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R8_UINT,
         extent: |facts| facts.scene.field.cells(),
         flat: false,
@@ -63,20 +63,20 @@ const ROW: usize = size_of::<[f32; 4]>();
 
 /// Pieces of the transfer function, over the texture's values.
 pub const TRANSFER: Resource = Resource::new(&TRANSFER_INFO);
-static TRANSFER_INFO: Info = Info {
+static TRANSFER_INFO: ResourceInfo = ResourceInfo {
     name: "transfer",
     holds: "three rows a piece: its place, its colour and opacity, their change",
-    kind: Kind::Storage(|facts, _| (3 * ROW * facts.scene.transfer.knots().len()) as u64),
+    kind: ResourceKind::Storage(|facts, _| (3 * ROW * facts.scene.transfer.knots().len()) as u64),
     life: Life::Transfer,
     origin: Origin::Host(|facts| rows(facts, false)),
 };
 
 /// Pieces of a transfer function without colours.
 pub const GREY_TRANSFER: Resource = Resource::new(&GREY_TRANSFER_INFO);
-static GREY_TRANSFER_INFO: Info = Info {
+static GREY_TRANSFER_INFO: ResourceInfo = ResourceInfo {
     name: "transfer",
     holds: "two rows a piece: its place, its grey and opacity with their change",
-    kind: Kind::Storage(|facts, _| (2 * ROW * facts.scene.transfer.knots().len()) as u64),
+    kind: ResourceKind::Storage(|facts, _| (2 * ROW * facts.scene.transfer.knots().len()) as u64),
     life: Life::Transfer,
     origin: Origin::Host(|facts| rows(facts, true)),
 };
@@ -88,10 +88,10 @@ fn rows(facts: &Facts, grey: bool) -> Cow<'static, [u8]> {
 
 /// The table of pre-integrated classification.
 pub const PREINTEGRATED: Resource = Resource::new(&PREINTEGRATED_INFO);
-static PREINTEGRATED_INFO: Info = Info {
+static PREINTEGRATED_INFO: ResourceInfo = ResourceInfo {
     name: "preintegrated",
     holds: "premultiplied colour and opacity of a step, by the values at its ends",
-    kind: Kind::Texture(Texture {
+    kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R32G32B32A32_SFLOAT,
         extent: |facts| {
             let nodes = preintegrated::nodes(facts.scene);
@@ -109,10 +109,12 @@ static PREINTEGRATED_INFO: Info = Info {
 
 /// The axes of the table of pre-integrated classification.
 pub const AXIS: Resource = Resource::new(&AXIS_INFO);
-static AXIS_INFO: Info = Info {
+static AXIS_INFO: ResourceInfo = ResourceInfo {
     name: "axis",
     holds: "pieces of the table's axes, over the texture's values",
-    kind: Kind::Storage(|facts, _| (size_of::<shared::AxisPiece>() * (facts.scene.transfer.knots().len() + 1)) as u64),
+    kind: ResourceKind::Storage(|facts, _| {
+        (size_of::<shared::AxisPiece>() * (facts.scene.transfer.knots().len() + 1)) as u64
+    }),
     life: Life::Transfer,
     origin: Origin::Host(|facts| {
         let texels = Texels::of(facts.scene);

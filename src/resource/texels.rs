@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use ash::vk;
 use rayon::prelude::*;
 
-use crate::scene::texture::{Kept, Stretch, TexelFormat, TextureChoice, code_span};
+use crate::scene::texture::{Coding, Stretch, TexelFormat, TextureChoice, code_span};
 use crate::scene::volume::Voxels;
 use crate::scene::{Field, Scene, TransferFunction};
 use crate::structure::cells::Values;
@@ -25,31 +25,31 @@ impl<'a> Texels<'a> {
         Self::new(&scene.field, TextureChoice::of(scene).kept)
     }
 
-    fn new(field: &'a Field, kept: Kept) -> Self {
+    fn new(field: &'a Field, kept: Coding) -> Self {
         match kept {
-            Kept::Stretched => Self::stretched(field),
-            Kept::Spread => Self::spread(field),
-            Kept::Float => Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 },
-            Kept::Stored | Kept::Widened => Self::coded(field, kept),
+            Coding::Stretched => Self::stretched(field),
+            Coding::Spread => Self::spread(field),
+            Coding::Float => Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 },
+            Coding::Stored | Coding::Widened => Self::coded(field, kept),
         }
     }
 
     /// Integers as stored: the texture's value is (voxel - least) / (most - least) of their type. Where x is 0 everywhere,
     /// so is the texture's value.
-    fn coded(field: &'a Field, kept: Kept) -> Self {
+    fn coded(field: &'a Field, kept: Coding) -> Self {
         let [low, high] = field.range;
         let [least, most] = code_span(field).unwrap_or_default();
         let values = match (&field.volume.voxels, kept) {
-            (Voxels::U8(v), Kept::Widened) => Values::Unorm16(codes(field, v, |v| u16::from(v) * WIDEN).into()),
+            (Voxels::U8(v), Coding::Widened) => Values::Unorm16(codes(field, v, |v| u16::from(v) * WIDEN).into()),
             (Voxels::U8(v), _) => Values::Unorm8(borrowed_or(field, v, || codes(field, v, |v| v))),
-            (Voxels::I8(v), Kept::Widened) => {
+            (Voxels::I8(v), Coding::Widened) => {
                 Values::Unorm16(codes(field, v, |v| u16::from(from_i8(v)) * WIDEN).into())
             }
             (Voxels::I8(v), _) => Values::Unorm8(codes(field, v, from_i8).into()),
             (Voxels::U16(v), _) => Values::Unorm16(borrowed_or(field, v, || codes(field, v, |v| v))),
             (Voxels::I16(v), _) => Values::Unorm16(codes(field, v, |v| v.wrapping_sub(i16::MIN) as u16).into()),
             // Other types have no codes.
-            _ => return Self::new(field, Kept::Float),
+            _ => return Self::new(field, Coding::Float),
         };
         if field.has_empty_range() {
             return Self { values, scale: 1.0, offset: 0.0 };
@@ -68,7 +68,7 @@ impl<'a> Texels<'a> {
             Voxels::U16(v) => codes(field, v, |v| code(f64::from(v))),
             Voxels::I16(v) => codes(field, v, |v| code(f64::from(v))),
             // Other types are not stretched.
-            _ => return Self::new(field, Kept::Float),
+            _ => return Self::new(field, Coding::Float),
         };
         let unit = f64::from(factor) / f64::from(u16::MAX);
         Self { values: Values::Unorm16(values.into()), scale: (high - low) * unit, offset: (low - least) * unit }

@@ -28,14 +28,14 @@ pub struct Builtin {
     /// One line for `--help` and reports.
     pub about: &'static str,
     /// How its voxels are kept.
-    pub stored: Stored,
+    pub stored: BuiltinVoxels,
     value: fn(DVec3) -> f64,
     gradient: fn(DVec3) -> DVec3,
 }
 
 /// How the voxels of a built-in volume are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stored {
+pub enum BuiltinVoxels {
     /// u8: round(255 * value), as scanners and old data sets give it.
     U8,
     /// f32: the value, for comparison with the closed form.
@@ -60,49 +60,49 @@ pub const ALL: [Builtin; 7] = [
     Builtin {
         name: "marschner-lobb",
         about: "the Marschner-Lobb test signal; f32, reaches the faces",
-        stored: Stored::F32,
+        stored: BuiltinVoxels::F32,
         value: marschner_lobb,
         gradient: marschner_lobb_gradient,
     },
     Builtin {
         name: "shells",
         about: "three thin concentric shells with empty space between; u8, 0 at the faces",
-        stored: Stored::U8,
+        stored: BuiltinVoxels::U8,
         value: shells,
         gradient: shells_gradient,
     },
     Builtin {
         name: "jets",
         about: "a straight jet and five that wind around it, sparse as vessels are; u8, 0 at the faces",
-        stored: Stored::U8,
+        stored: BuiltinVoxels::U8,
         value: jets,
         gradient: jets_gradient,
     },
     Builtin {
         name: "blocks",
         about: "boxes, a rod and a thin wall whose faces lie on seams of 8^3 blocks; u8, 0 at the faces",
-        stored: Stored::U8,
+        stored: BuiltinVoxels::U8,
         value: blocks,
         gradient: blocks_gradient,
     },
     Builtin {
         name: "constant",
         about: "0.5 everywhere; f32, reaches the faces",
-        stored: Stored::F32,
+        stored: BuiltinVoxels::F32,
         value: |_| 0.5,
         gradient: |_| DVec3::ZERO,
     },
     Builtin {
         name: "linear",
         about: "rises along x from 0 to 1; f32, reaches the faces",
-        stored: Stored::F32,
+        stored: BuiltinVoxels::F32,
         value: |p| 0.5 + 0.5 * p.x,
         gradient: |_| DVec3::new(0.5, 0.0, 0.0),
     },
     Builtin {
         name: "gaussian",
         about: "a round Gaussian, 1 at the centre; f32, nearly 0 at the faces",
-        stored: Stored::F32,
+        stored: BuiltinVoxels::F32,
         value: gaussian,
         gradient: |p| -p / GAUSSIAN_SIGMA.powi(2) * gaussian(p),
     },
@@ -135,8 +135,8 @@ pub fn volume(spec: &str) -> Result<Volume> {
     let label = format!("builtin:{spec}");
     let dims = size.map_or(Ok([DEFAULT_SIZE; 3]), |size| sizes(&label, size))?;
     let voxels = match builtin.stored {
-        Stored::U8 => fill(&label, builtin, dims, |v| (255.0 * v).round() as u8).map(Voxels::U8),
-        Stored::F32 => fill(&label, builtin, dims, |v| v as f32).map(Voxels::F32),
+        BuiltinVoxels::U8 => fill(&label, builtin, dims, |v| (255.0 * v).round() as u8).map(Voxels::U8),
+        BuiltinVoxels::F32 => fill(&label, builtin, dims, |v| v as f32).map(Voxels::F32),
     }?;
     Volume::new(label, dims, [1.0; 3], voxels)
 }

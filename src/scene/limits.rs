@@ -26,7 +26,7 @@ pub enum Allowed {
 
 /// What is wrong with a value, and what to do, for [`crate::Error`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wrong {
+pub struct WrongValue {
     pub problem: String,
     pub remedy: String,
 }
@@ -60,9 +60,9 @@ impl Limits {
     }
 
     /// What is wrong with `value`, if anything is.
-    pub fn wrong(&self, value: &impl Numbers) -> Option<Wrong> {
+    pub fn wrong(&self, value: &impl Numbers) -> Option<WrongValue> {
         let problem = value.problem(&|number| self.contains(number))?;
-        Some(Wrong { problem, remedy: self.remedy() })
+        Some(WrongValue { problem, remedy: self.remedy() })
     }
 }
 

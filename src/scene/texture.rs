@@ -79,7 +79,7 @@ impl Default for TextureUnit {
 
 /// What of a volume stands in its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum Coding {
     /// Codes of 8 or 16 bits as they are.
     Stored,
     /// Codes of 8 bits in 16: c * 257, which stands for the same number.
@@ -95,7 +95,7 @@ pub enum Kept {
 /// How a volume is kept on a device, and what that means for x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureChoice {
-    pub kept: Kept,
+    pub kept: Coding,
     pub format: TexelFormat,
     /// No interpolated x is farther than this from the one interpolated in exact arithmetic; infinite where there is no
     /// such bound.
@@ -109,15 +109,15 @@ impl TextureChoice {
     pub fn of(scene: &Scene) -> Self {
         let (field, volume) = (&*scene.field, &scene.settings.volume);
         let filter = scene.settings.sampling.filter;
-        let choice = |kept: Kept| {
+        let choice = |kept: Coding| {
             let format = format_of(field, kept);
             let error = error_of(field, kept, format, filter, &scene.unit);
             Self { kept, format, error, measured: scene.unit.measured || filter != Filter::Hardware }
         };
         match volume.texture {
             VolumeTexture::Native => choice(native(field)),
-            VolumeTexture::R16 => choice(Kept::Spread),
-            VolumeTexture::R32f => choice(Kept::Float),
+            VolumeTexture::R16 => choice(Coding::Spread),
+            VolumeTexture::R32f => choice(Coding::Float),
             VolumeTexture::Auto => {
                 let all: Vec<Self> = lossless(field, filter).iter().map(|kept| choice(*kept)).collect();
                 let least = all.iter().map(|choice| choice.error).fold(f64::INFINITY, f64::min);
@@ -132,11 +132,11 @@ impl TextureChoice {
     /// `r16, 8 bits widened`.
     pub fn name(&self) -> String {
         let how = match self.kept {
-            Kept::Stored => "as stored",
-            Kept::Widened => "8 bits widened",
-            Kept::Stretched => "codes stretched over 16 bits",
-            Kept::Spread => "spread over the values",
-            Kept::Float => "x itself",
+            Coding::Stored => "as stored",
+            Coding::Widened => "8 bits widened",
+            Coding::Stretched => "codes stretched over 16 bits",
+            Coding::Spread => "spread over the values",
+            Coding::Float => "x itself",
         };
         format!("{}, {how}", self.format.name())
     }
@@ -156,21 +156,23 @@ const NOT_MUCH_WORSE: f64 = 2.0;
 
 /// The format that `native` stands for. Codes cannot stand for a volume whose missing voxels became a number that is
 /// none of its type.
-fn native(field: &Field) -> Kept {
+fn native(field: &Field) -> Coding {
     let coded = codes(field.volume.voxels.voxel_type()).is_some();
     let [low, _] = field.range;
     let replaceable =
         || low.fract() == 0.0 && code_span(field).is_some_and(|[least, most]| least <= low && low <= most);
-    if coded && (field.missing == 0 || replaceable()) { Kept::Stored } else { Kept::Float }
+    if coded && (field.missing == 0 || replaceable()) { Coding::Stored } else { Coding::Float }
 }
 
 /// What loses nothing of the volume, the smallest first. Where nothing is interpolated the codes themselves are exact.
-fn lossless(field: &Field, filter: Filter) -> Vec<Kept> {
+fn lossless(field: &Field, filter: Filter) -> Vec<Coding> {
     match (native(field), codes(field.volume.voxels.voxel_type())) {
-        (Kept::Stored, _) if filter == Filter::Nearest => vec![Kept::Stored],
-        (Kept::Stored, Some(TexelFormat::R8)) => vec![Kept::Stored, Kept::Widened, Kept::Stretched, Kept::Float],
-        (Kept::Stored, _) => vec![Kept::Stored, Kept::Stretched, Kept::Float],
-        _ => vec![Kept::Float],
+        (Coding::Stored, _) if filter == Filter::Nearest => vec![Coding::Stored],
+        (Coding::Stored, Some(TexelFormat::R8)) => {
+            vec![Coding::Stored, Coding::Widened, Coding::Stretched, Coding::Float]
+        }
+        (Coding::Stored, _) => vec![Coding::Stored, Coding::Stretched, Coding::Float],
+        _ => vec![Coding::Float],
     }
 }
 
@@ -217,16 +219,16 @@ pub fn code_span(field: &Field) -> Option<[f64; 2]> {
     }
 }
 
-fn format_of(field: &Field, kept: Kept) -> TexelFormat {
+fn format_of(field: &Field, kept: Coding) -> TexelFormat {
     match kept {
-        Kept::Stored => codes(field.volume.voxels.voxel_type()).unwrap_or(TexelFormat::R32f),
-        Kept::Widened | Kept::Stretched | Kept::Spread => TexelFormat::R16,
-        Kept::Float => TexelFormat::R32f,
+        Coding::Stored => codes(field.volume.voxels.voxel_type()).unwrap_or(TexelFormat::R32f),
+        Coding::Widened | Coding::Stretched | Coding::Spread => TexelFormat::R16,
+        Coding::Float => TexelFormat::R32f,
     }
 }
 
 /// A bound of the error of an interpolated x.
-fn error_of(field: &Field, kept: Kept, format: TexelFormat, filter: Filter, unit: &TextureUnit) -> f64 {
+fn error_of(field: &Field, kept: Coding, format: TexelFormat, filter: Filter, unit: &TextureUnit) -> f64 {
     // x is 0 in every texel.
     if field.has_empty_range() {
         return 0.0;
@@ -235,11 +237,13 @@ fn error_of(field: &Field, kept: Kept, format: TexelFormat, filter: Filter, unit
     let width = field.range[1] - field.range[0];
     // How much of x a texel's numbers from 0 to 1 span, the part of that its largest number takes, and what making it lost.
     let (span, top, made) = match (kept, code_span(field)) {
-        (Kept::Stored | Kept::Widened, Some([least, most])) => {
+        (Coding::Stored | Coding::Widened, Some([least, most])) => {
             ((most - least) / width, (values(field)[1] - least) / (most - least), 0.0)
         }
-        (Kept::Stretched, Some(_)) => (f64::from(u16::MAX) / (f64::from(Stretch::of(field).factor) * width), 1.0, 0.0),
-        (Kept::Spread, _) => (high - low, 1.0, (high - low) * 0.5 / f64::from(u16::MAX)),
+        (Coding::Stretched, Some(_)) => {
+            (f64::from(u16::MAX) / (f64::from(Stretch::of(field).factor) * width), 1.0, 0.0)
+        }
+        (Coding::Spread, _) => (high - low, 1.0, (high - low) * 0.5 / f64::from(u16::MAX)),
         _ => (low.abs().max(high.abs()), 1.0, 0.0),
     };
     let side = field.dims().into_iter().max().unwrap_or(1) as f64;

@@ -76,10 +76,10 @@ impl Frame {
     }
 }
 
-/// `Step` of `glsl/shared/frame.glsl`: the push constants of a step.
+/// `PushStep` of `glsl/shared/frame.glsl`: the push constants of a step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Step {
+pub struct PushStep {
     pub bound: f32,
     pub pass: u32,
 }

@@ -59,7 +59,7 @@ pub struct Absorber<'a> {
 
 /// A ray in voxel centre coordinates: `origin + t * direction` counts voxels from the first centre (0) on, and t is
 /// in volume units.
-struct Line {
+struct VoxelRay {
     origin: DVec3,
     direction: DVec3,
 }
@@ -86,7 +86,7 @@ impl<'a> ExactIntegrator<'a> {
     /// a `length` that is not positive.
     pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
         let voxel = self.field.voxel();
-        let line = Line { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
+        let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
         let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
         for pair in self.plane_cuts(&line, length).windows(2) {
             if light.transmittance * self.medium.brightest < BLACK {
@@ -121,7 +121,7 @@ impl<'a> ExactIntegrator<'a> {
 
     /// 0, the parameters at which the line meets a plane of voxel centres (and of faces between voxels, where these
     /// matter), and `length`, rising.
-    fn plane_cuts(&self, line: &Line, length: f64) -> Vec<f64> {
+    fn plane_cuts(&self, line: &VoxelRay, length: f64) -> Vec<f64> {
         let mut cuts = Vec::new();
         if !(length > 0.0 && length.is_finite()) {
             return cuts;
@@ -147,7 +147,7 @@ impl<'a> ExactIntegrator<'a> {
     }
 
     /// Adds the part [a, b] of the line, which lies inside one cell or beyond the outermost voxel centres.
-    fn cell(&self, line: &Line, a: f64, b: f64, length: f64, light: &mut Light) {
+    fn cell(&self, line: &VoxelRay, a: f64, b: f64, length: f64, light: &mut Light) {
         let dims = self.field.dims();
         let middle = line.origin + 0.5 * (a + b) * line.direction;
         let mut low = [0; 3];

@@ -35,11 +35,11 @@ pub struct BufferInfo {
 /// A buffer with its memory. `Upload` and `Readback` memory is mapped for good and coherent.
 pub struct Buffer {
     pub info: BufferInfo,
-    pub(super) inner: Arc<Inner>,
+    pub(super) inner: Arc<BufferInner>,
 }
 
 /// What lives as long as anything uses the buffer.
-pub(super) struct Inner {
+pub(super) struct BufferInner {
     device: Arc<Device>,
     handle: vk::Buffer,
     /// Locked while the host reads or writes.
@@ -56,9 +56,11 @@ impl Buffer {
         let inner = unsafe {
             let handle = device.check("vkCreateBuffer", &info.name, device.raw.create_buffer(&create, None))?;
             match bind(device, &info, handle) {
-                Ok(allocation) => {
-                    Inner { device: device.clone(), handle, allocation: ManuallyDrop::new(Mutex::new(allocation)) }
-                }
+                Ok(allocation) => BufferInner {
+                    device: device.clone(),
+                    handle,
+                    allocation: ManuallyDrop::new(Mutex::new(allocation)),
+                },
                 Err(error) => {
                     device.raw.destroy_buffer(handle, None);
                     return Err(error);
@@ -115,7 +117,7 @@ impl Buffer {
     }
 }
 
-impl Drop for Inner {
+impl Drop for BufferInner {
     fn drop(&mut self) {
         // SAFETY: nothing uses the buffer any more; each part is freed once.
         unsafe {

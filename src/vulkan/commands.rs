@@ -13,7 +13,7 @@ use super::failure::misuse;
 use super::layout::Layout;
 use super::owned::{Kept, Owned};
 use super::pipeline::{ComputePipeline, GraphicsPipeline};
-use super::query::{Kind, QueryPool};
+use super::query::{QueryKind, QueryPool};
 use super::queue::Queue;
 use super::recorded::Recorded;
 use super::render_pass::{Framebuffer, RenderPass};
@@ -239,7 +239,7 @@ impl Commands {
         if !self.keep_queries(pool, &(index..index.saturating_add(1))) {
             return;
         }
-        let flags = match pool.kind == Kind::Occlusion && self.device.info.occlusion_precise {
+        let flags = match pool.kind == QueryKind::Occlusion && self.device.info.occlusion_precise {
             true => vk::QueryControlFlags::PRECISE,
             false => vk::QueryControlFlags::empty(),
         };

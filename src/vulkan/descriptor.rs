@@ -15,7 +15,7 @@ use crate::error::Result;
 
 /// What a binding is given.
 #[derive(Clone, Copy)]
-pub enum Resource<'a> {
+pub enum Bound<'a> {
     /// An image read through a sampler, in the layout it has then.
     Sampled(&'a Image, &'a Sampler, vk::ImageLayout),
     Storage(&'a Buffer),
@@ -42,7 +42,7 @@ impl DescriptorSet {
     ///
     /// # Errors
     /// A binding without resource, of another kind, or with another number of them.
-    pub fn new(device: &Arc<Device>, name: &str, layout: &Layout, resources: &[(&str, Resource<'_>)]) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, name: &str, layout: &Layout, resources: &[(&str, Bound<'_>)]) -> Result<Self> {
         let mut made = Self {
             name: name.into(),
             bindings: layout.bindings.clone(),
@@ -120,47 +120,47 @@ impl DescriptorSet {
     }
 }
 
-impl Resource<'_> {
+impl Bound<'_> {
     fn kind(&self) -> vk::DescriptorType {
         match self {
-            Resource::Sampled(..) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
-            Resource::Storage(_) => vk::DescriptorType::STORAGE_BUFFER,
-            Resource::Uniform(_) => vk::DescriptorType::UNIFORM_BUFFER,
-            Resource::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
-            Resource::Input(_) => vk::DescriptorType::INPUT_ATTACHMENT,
+            Bound::Sampled(..) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
+            Bound::Storage(_) => vk::DescriptorType::STORAGE_BUFFER,
+            Bound::Uniform(_) => vk::DescriptorType::UNIFORM_BUFFER,
+            Bound::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
+            Bound::Input(_) => vk::DescriptorType::INPUT_ATTACHMENT,
         }
     }
 
     fn image_info(&self) -> Option<vk::DescriptorImageInfo> {
         let info = vk::DescriptorImageInfo::default();
         match self {
-            Resource::Sampled(image, sampler, layout) => {
+            Bound::Sampled(image, sampler, layout) => {
                 Some(info.image_view(image.view()).sampler(sampler.owned.raw).image_layout(*layout))
             }
-            Resource::StorageImage(image) | Resource::Input(image) => {
+            Bound::StorageImage(image) | Bound::Input(image) => {
                 Some(info.image_view(image.view()).image_layout(vk::ImageLayout::GENERAL))
             }
-            Resource::Storage(_) | Resource::Uniform(_) => None,
+            Bound::Storage(_) | Bound::Uniform(_) => None,
         }
     }
 
     fn buffer_info(&self) -> Option<vk::DescriptorBufferInfo> {
         match self {
-            Resource::Storage(buffer) | Resource::Uniform(buffer) => {
+            Bound::Storage(buffer) | Bound::Uniform(buffer) => {
                 Some(vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(buffer.info.size))
             }
-            Resource::Sampled(..) | Resource::StorageImage(_) | Resource::Input(_) => None,
+            Bound::Sampled(..) | Bound::StorageImage(_) | Bound::Input(_) => None,
         }
     }
 
     fn keep(&self, kept: &mut Vec<Kept>) {
         match self {
-            Resource::Sampled(image, sampler, _) => {
+            Bound::Sampled(image, sampler, _) => {
                 kept.push(image.inner.clone());
                 kept.push(sampler.owned.clone());
             }
-            Resource::StorageImage(image) | Resource::Input(image) => kept.push(image.inner.clone()),
-            Resource::Storage(buffer) | Resource::Uniform(buffer) => kept.push(buffer.inner.clone()),
+            Bound::StorageImage(image) | Bound::Input(image) => kept.push(image.inner.clone()),
+            Bound::Storage(buffer) | Bound::Uniform(buffer) => kept.push(buffer.inner.clone()),
         }
     }
 }

@@ -30,11 +30,11 @@ pub struct ImageInfo {
 /// An image of one level and one layer in device memory, with its view.
 pub struct Image {
     pub info: ImageInfo,
-    pub(super) inner: Arc<Inner>,
+    pub(super) inner: Arc<ImageInner>,
 }
 
 /// What lives as long as anything uses the image.
-pub(super) struct Inner {
+pub(super) struct ImageInner {
     device: Arc<Device>,
     handle: vk::Image,
     view: vk::ImageView,
@@ -67,7 +67,7 @@ impl Image {
             let handle = device.check("vkCreateImage", &info.name, device.raw.create_image(&create, None))?;
             match bind(device, &info, handle) {
                 Ok((allocation, view)) => {
-                    Inner { device: device.clone(), handle, view, allocation: ManuallyDrop::new(allocation) }
+                    ImageInner { device: device.clone(), handle, view, allocation: ManuallyDrop::new(allocation) }
                 }
                 Err(error) => {
                     device.raw.destroy_image(handle, None);
@@ -95,7 +95,7 @@ impl Image {
     }
 }
 
-impl Drop for Inner {
+impl Drop for ImageInner {
     fn drop(&mut self) {
         // SAFETY: nothing uses the image any more; each part is freed once.
         unsafe {

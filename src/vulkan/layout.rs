@@ -8,7 +8,7 @@ use super::device::Device;
 use super::failure::misuse;
 use super::owned::Owned;
 use super::reflect::Binding;
-use super::shader::Shader;
+use super::shader::ShaderModule;
 use crate::error::{Error, Result};
 
 /// The layout of a pipeline.
@@ -25,7 +25,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub(super) fn new(device: &Arc<Device>, name: &str, shaders: &[&Shader]) -> Result<Arc<Self>> {
+    pub(super) fn new(device: &Arc<Device>, name: &str, shaders: &[&ShaderModule]) -> Result<Arc<Self>> {
         let bindings = merge(name, shaders)?;
         let stages = shaders.iter().fold(vk::ShaderStageFlags::empty(), |all, shader| all | shader.stage);
         let push_constants = shaders.iter().map(|shader| shader.push_constants).max().unwrap_or(0);
@@ -70,7 +70,7 @@ impl Layout {
 }
 
 /// The bindings of all stages; one that several declare must be the same in each.
-fn merge(name: &str, shaders: &[&Shader]) -> Result<Vec<Binding>> {
+fn merge(name: &str, shaders: &[&ShaderModule]) -> Result<Vec<Binding>> {
     let mut merged: Vec<Binding> = Vec::new();
     for shader in shaders {
         for one in &shader.bindings {

@@ -10,7 +10,7 @@ use super::format::{has_alpha, has_stencil, texel_bytes};
 use super::layout::Layout;
 use super::owned::Owned;
 use super::render_pass::{RenderPass, Role};
-use super::shader::Shader;
+use super::shader::ShaderModule;
 use super::stages::Stages;
 use crate::error::{Error, Result};
 
@@ -43,9 +43,9 @@ pub enum Blend {
 /// set while recording.
 pub struct GraphicsPipelineInfo<'a> {
     pub name: &'a str,
-    pub vertex: &'a Shader,
+    pub vertex: &'a ShaderModule,
     /// Without one colours are undefined, and colour attachments are left as they are.
-    pub fragment: Option<&'a Shader>,
+    pub fragment: Option<&'a ShaderModule>,
     /// Specialization constants by name, with the bits of their values.
     pub constants: &'a [(&'a str, u32)],
     pub render_pass: &'a RenderPass,
@@ -70,7 +70,7 @@ impl GraphicsPipeline {
     /// without a depth attachment, a missing device feature.
     pub fn new(device: &Arc<Device>, info: &GraphicsPipelineInfo<'_>) -> Result<Self> {
         let name = info.name;
-        let shaders: Vec<&Shader> = std::iter::once(info.vertex).chain(info.fragment).collect();
+        let shaders: Vec<&ShaderModule> = std::iter::once(info.vertex).chain(info.fragment).collect();
         for (shader, stage) in shaders.iter().zip([vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT]) {
             expect_stage(name, shader, stage)?;
         }
@@ -149,7 +149,7 @@ impl ComputePipeline {
     ///
     /// # Errors
     /// A shader of another stage, a constant it does not have.
-    pub fn new(device: &Arc<Device>, name: &str, shader: &Shader, constants: &[(&str, u32)]) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, name: &str, shader: &ShaderModule, constants: &[(&str, u32)]) -> Result<Self> {
         expect_stage(name, shader, vk::ShaderStageFlags::COMPUTE)?;
         let shaders = [shader];
         let layout = Layout::new(device, name, &shaders)?;
@@ -164,16 +164,16 @@ impl ComputePipeline {
     }
 }
 
-type Made = Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>;
+type PipelinesMade = Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>;
 
-fn own(device: &Arc<Device>, call: &str, name: &str, made: Made) -> Result<Arc<Owned<vk::Pipeline>>> {
+fn own(device: &Arc<Device>, call: &str, name: &str, made: PipelinesMade) -> Result<Arc<Owned<vk::Pipeline>>> {
     let raw = device.check(call, name, made.map_err(|(_, code)| code))?[0];
     device.name(raw, name);
     // SAFETY of the destroyer: called once, when nothing uses the pipeline any more.
     Ok(Owned::new(device, raw, |device, raw| unsafe { device.destroy_pipeline(raw, None) }))
 }
 
-fn expect_stage(name: &str, shader: &Shader, stage: vk::ShaderStageFlags) -> Result<()> {
+fn expect_stage(name: &str, shader: &ShaderModule, stage: vk::ShaderStageFlags) -> Result<()> {
     match shader.stage == stage {
         true => Ok(()),
         false => Err(misuse(name, format!("{} is a {:?} shader in the place of {stage:?}", shader.name, shader.stage))),

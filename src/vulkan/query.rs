@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 
 /// What the queries of a pool count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum QueryKind {
     /// Samples that passed all per-fragment tests; exact where the device can.
     Occlusion,
     /// Ticks; see [`Device::elapsed_ms`].
@@ -23,7 +23,7 @@ pub enum Kind {
 
 pub struct QueryPool {
     pub name: String,
-    pub kind: Kind,
+    pub kind: QueryKind,
     pub count: u32,
     pub(super) owned: Arc<Owned<vk::QueryPool>>,
 }
@@ -31,14 +31,16 @@ pub struct QueryPool {
 impl QueryPool {
     /// # Errors
     /// No queries, or a kind the device does not have.
-    pub fn new(device: &Arc<Device>, name: &str, kind: Kind, count: u32) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, name: &str, kind: QueryKind, count: u32) -> Result<Self> {
         if count == 0 {
             return Err(misuse(name, "has no queries"));
         }
         let missing = match kind {
-            Kind::Occlusion => None,
-            Kind::Timestamp => (device.info.timestamp_valid_bits == 0).then_some("timestamps on its graphics queue"),
-            Kind::Statistics => (!device.info.pipeline_statistics).then_some("pipeline statistics"),
+            QueryKind::Occlusion => None,
+            QueryKind::Timestamp => {
+                (device.info.timestamp_valid_bits == 0).then_some("timestamps on its graphics queue")
+            }
+            QueryKind::Statistics => (!device.info.pipeline_statistics).then_some("pipeline statistics"),
         };
         if let Some(missing) = missing {
             let problem = format!("{} has no {missing}", device.info.name);
@@ -46,9 +48,9 @@ impl QueryPool {
         }
         let create = vk::QueryPoolCreateInfo::default().query_count(count);
         let create = match kind {
-            Kind::Occlusion => create.query_type(vk::QueryType::OCCLUSION),
-            Kind::Timestamp => create.query_type(vk::QueryType::TIMESTAMP),
-            Kind::Statistics => create
+            QueryKind::Occlusion => create.query_type(vk::QueryType::OCCLUSION),
+            QueryKind::Timestamp => create.query_type(vk::QueryType::TIMESTAMP),
+            QueryKind::Statistics => create
                 .query_type(vk::QueryType::PIPELINE_STATISTICS)
                 .pipeline_statistics(vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS),
         };
@@ -76,7 +78,7 @@ impl QueryPool {
         // SAFETY: the range is inside the pool, and each query has one result of eight bytes.
         let read = unsafe { device.raw.get_query_pool_results(self.owned.raw, range.start, &mut results, flags) };
         device.check("vkGetQueryPoolResults", &self.name, read)?;
-        if self.kind == Kind::Timestamp {
+        if self.kind == QueryKind::Timestamp {
             results.iter_mut().for_each(|ticks| *ticks &= device.timestamp_mask());
         }
         Ok(results)

@@ -35,7 +35,7 @@ pub(super) struct Reflection {
 pub(super) fn reflect(name: &str, words: &[u32]) -> Result<Reflection> {
     let bad = |problem: String| Error::input(format!("shader {name}"), problem, "compile it again from its GLSL");
     let module = load_words(words).map_err(|error| bad(format!("is not valid SPIR-V ({error})")))?;
-    let names = Names::of(&module);
+    let names = ModuleIds::of(&module);
     let [entry] = module.entry_points.as_slice() else {
         return Err(bad(format!("has {} entry points, 1 is needed", module.entry_points.len())));
     };
@@ -92,14 +92,14 @@ fn execution_mode(instruction: &Instruction) -> Option<String> {
 }
 
 /// The module's ids by what they define, their names and decorations.
-struct Names<'a> {
+struct ModuleIds<'a> {
     instructions: HashMap<u32, &'a Instruction>,
     names: HashMap<u32, &'a str>,
     decorations: HashMap<(u32, Decoration), u32>,
     members: HashMap<(u32, u32, Decoration), u32>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> ModuleIds<'a> {
     fn of(module: &'a Module) -> Self {
         let mut found = Self {
             instructions: HashMap::new(),
@@ -248,7 +248,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Names and ids; an error is the name of one that is not 32 bits wide.
+    /// ModuleIds and ids; an error is the name of one that is not 32 bits wide.
     fn spec_constants(&self, module: &Module) -> Result<Vec<(String, u32)>, String> {
         let mut found = Vec::new();
         for one in &module.types_global_values {

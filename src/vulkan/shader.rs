@@ -7,7 +7,7 @@ use crate::error::Result;
 
 /// A SPIR-V module with one entry point.
 #[derive(Clone, Debug)]
-pub struct Shader {
+pub struct ShaderModule {
     pub name: String,
     pub stage: vk::ShaderStageFlags,
     /// Sorted by set and binding.
@@ -22,7 +22,7 @@ pub struct Shader {
     pub(super) words: Vec<u32>,
 }
 
-impl Shader {
+impl ShaderModule {
     /// Reads the SPIR-V of a vertex, fragment or compute shader. Names come from its debug information.
     ///
     /// # Errors

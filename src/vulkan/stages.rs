@@ -1,4 +1,4 @@
-//! Shader modules and their specialization, needed only while a pipeline is made.
+//! ShaderModule modules and their specialization, needed only while a pipeline is made.
 
 use std::ffi::CString;
 
@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::device::{Device, c_text};
 use super::failure::misuse;
-use super::shader::Shader;
+use super::shader::ShaderModule;
 use crate::error::Result;
 
 /// The stages of a pipeline, each in the order it was given.
@@ -27,7 +27,7 @@ struct Stage {
 impl<'a> Stages<'a> {
     /// # Errors
     /// A constant that no shader has.
-    pub fn new(device: &'a Device, name: &str, shaders: &[&Shader], constants: &[(&str, u32)]) -> Result<Self> {
+    pub fn new(device: &'a Device, name: &str, shaders: &[&ShaderModule], constants: &[(&str, u32)]) -> Result<Self> {
         let known = || shaders.iter().flat_map(|shader| &shader.spec_constants).map(|(name, _)| name.as_str());
         if let Some((unknown, _)) = constants.iter().find(|(wanted, _)| !known().any(|name| name == *wanted)) {
             let names: Vec<_> = known().collect();
@@ -82,7 +82,7 @@ impl Drop for Stages<'_> {
 }
 
 /// Where the shader's constants stand among the values.
-fn entries(shader: &Shader, constants: &[(&str, u32)]) -> Vec<vk::SpecializationMapEntry> {
+fn entries(shader: &ShaderModule, constants: &[(&str, u32)]) -> Vec<vk::SpecializationMapEntry> {
     let mut entries = Vec::new();
     for (index, (wanted, _)) in constants.iter().enumerate() {
         let ids = shader.spec_constants.iter().filter(|(name, _)| name == wanted).map(|(_, id)| *id);

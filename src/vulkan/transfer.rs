@@ -11,7 +11,7 @@ use super::render_pass::Scope;
 
 /// A part of an image and where its texels stand in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
+pub struct CopyRegion {
     /// Bytes.
     pub buffer_offset: u64,
     /// Texels.
@@ -22,7 +22,7 @@ pub struct Region {
     pub row: u32,
 }
 
-impl Region {
+impl CopyRegion {
     /// All of the image, at the start of the buffer.
     pub fn whole(image: &Image) -> Self {
         Self { buffer_offset: 0, image_offset: [0; 3], extent: image.info.extent, row: 0 }
@@ -149,7 +149,7 @@ impl Commands {
     }
 
     /// The image is in layout `TRANSFER_DST_OPTIMAL`.
-    pub fn copy_buffer_to_image(&mut self, buffer: &Buffer, image: &Image, region: Region) {
+    pub fn copy_buffer_to_image(&mut self, buffer: &Buffer, image: &Image, region: CopyRegion) {
         if let Some(region) = self.region(buffer, image, region) {
             let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
             let (from, to) = (buffer.handle(), image.handle());
@@ -182,7 +182,7 @@ impl Commands {
     }
 
     /// The image is in layout `TRANSFER_SRC_OPTIMAL`. Of a depth format the depth is copied.
-    pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer, region: Region) {
+    pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer, region: CopyRegion) {
         if let Some(region) = self.region(buffer, image, region) {
             let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
             let (from, to) = (image.handle(), buffer.handle());
@@ -211,7 +211,7 @@ impl Commands {
     }
 
     /// The region as Vulkan takes it, when it is inside the image and its texels inside the buffer.
-    fn region(&mut self, buffer: &Buffer, image: &Image, region: Region) -> Option<vk::BufferImageCopy> {
+    fn region(&mut self, buffer: &Buffer, image: &Image, region: CopyRegion) -> Option<vk::BufferImageCopy> {
         self.keep(&image.inner);
         let sides = region.image_offset.iter().zip(region.extent).zip(image.info.extent);
         let inside = |((&offset, side), limit): ((&u32, u32), u32)| {

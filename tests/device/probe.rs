@@ -5,9 +5,9 @@ use std::sync::Arc;
 use depthleap::probe::case::Case;
 use depthleap::probe::correct::{Depth, faults};
 use depthleap::probe::measure::{How, ProbeClock, cost, statistics};
-use depthleap::probe::record::{self, Line, Probe};
+use depthleap::probe::record::{self, MechanismRecord, Probe};
 use depthleap::probe::run::missing;
-use depthleap::probe::{Compare, Culling, Mechanism, Rig, Shader};
+use depthleap::probe::{CaseShader, Compare, Culling, Mechanism, Rig};
 use depthleap::vulkan::{Device, DeviceInfo, vk};
 
 use crate::cli::program::Place;
@@ -49,13 +49,13 @@ fn text(place: &Place, file: &str) -> String {
     String::from_utf8(place.read(file)).unwrap()
 }
 
-fn of(probe: &Probe, mechanism: Mechanism, shader: Shader) -> &Line {
+fn of(probe: &Probe, mechanism: Mechanism, shader: CaseShader) -> &MechanismRecord {
     let case = Case { mechanism, shader, compare: Compare::GreaterOrEqual };
     probe.lines.iter().find(|line| line.case == case).unwrap()
 }
 
 #[track_caller]
-fn culled(probe: &Probe, mechanism: Mechanism, shader: Shader, expected: Culling) {
+fn culled(probe: &Probe, mechanism: Mechanism, shader: CaseShader, expected: Culling) {
     let line = of(probe, mechanism, shader);
     assert_eq!(line.culling(), Some(expected), "{}: {:?}", line.case.name(), line.cost);
 }
@@ -71,7 +71,7 @@ fn wrong(probe: &Probe) -> Vec<Mechanism> {
 fn mesa_22(probe: &Probe) {
     assert_eq!(wrong(probe), []);
     assert!(probe.statistics.is_some() && !probe.device.depth_bounds);
-    assert!(of(probe, Mechanism::BoundsRead, Shader::Plain).missing.is_some());
+    assert!(of(probe, Mechanism::BoundsRead, CaseShader::Plain).missing.is_some());
     lavapipe(probe, &[Mechanism::DepthRead, Mechanism::DepthWrite, Mechanism::Stencil]);
 }
 
@@ -87,12 +87,24 @@ fn mesa_26(probe: &Probe) {
 
 fn lavapipe(probe: &Probe, early: &[Mechanism]) {
     for &mechanism in early {
-        for shader in [Shader::Plain, Shader::Early, Shader::Discards, Shader::EarlyBuffer, Shader::EarlyImage] {
+        for shader in [
+            CaseShader::Plain,
+            CaseShader::Early,
+            CaseShader::Discards,
+            CaseShader::EarlyBuffer,
+            CaseShader::EarlyImage,
+        ] {
             culled(probe, mechanism, shader, Culling::Early);
             // Lanes are 4 x 2 pixels.
             assert!(of(probe, mechanism, shader).cost.as_ref().unwrap().tile.is_some_and(|tile| tile <= 8));
         }
-        for shader in [Shader::Buffer, Shader::Image, Shader::DepthAny, Shader::DepthLess, Shader::DepthLessImage] {
+        for shader in [
+            CaseShader::Buffer,
+            CaseShader::Image,
+            CaseShader::DepthAny,
+            CaseShader::DepthLess,
+            CaseShader::DepthLessImage,
+        ] {
             culled(probe, mechanism, shader, Culling::Late);
         }
     }
@@ -102,15 +114,15 @@ fn lavapipe(probe: &Probe, early: &[Mechanism]) {
 /// only where they are declared.
 fn swiftshader(probe: &Probe) {
     assert_eq!(wrong(probe), [Mechanism::BoundsAlone]);
-    assert!(probe.lines.iter().flat_map(Line::faults).all(|fault| fault.what == "count"));
-    for shader in [Shader::Plain, Shader::Early, Shader::DepthLess, Shader::EarlyImage] {
+    assert!(probe.lines.iter().flat_map(MechanismRecord::faults).all(|fault| fault.what == "count"));
+    for shader in [CaseShader::Plain, CaseShader::Early, CaseShader::DepthLess, CaseShader::EarlyImage] {
         for mechanism in [Mechanism::BoundsRead, Mechanism::BoundsWrite, Mechanism::BoundsCompare] {
             culled(probe, mechanism, shader, Culling::Late);
         }
     }
-    culled(probe, Mechanism::DepthRead, Shader::Early, Culling::Early);
-    culled(probe, Mechanism::DepthRead, Shader::Plain, Culling::Late);
-    culled(probe, Mechanism::Alive, Shader::Plain, Culling::Early);
+    culled(probe, Mechanism::DepthRead, CaseShader::Early, Culling::Early);
+    culled(probe, Mechanism::DepthRead, CaseShader::Plain, Culling::Late);
+    culled(probe, Mechanism::Alive, CaseShader::Plain, Culling::Early);
 }
 
 /// As if the device had no bounds test, no statistics, no timestamps and no exact counts.
@@ -134,9 +146,9 @@ fn lacking_device(device: &Arc<Device>) {
     let mut rig = Rig::new(&lacking, vk::Format::D32_SFLOAT, 64).unwrap();
     assert_eq!(statistics(&mut rig).unwrap().as_deref(), Some("the device has none"));
     let case = |mechanism, shader| Case { mechanism, shader, compare: Compare::GreaterOrEqual };
-    let bounds = case(Mechanism::BoundsCompare, Shader::DepthLess);
+    let bounds = case(Mechanism::BoundsCompare, CaseShader::DepthLess);
     assert_eq!(missing(&lacking, &bounds).as_deref(), Some("no depth bounds test"));
-    let early = case(Mechanism::DepthRead, Shader::Early);
+    let early = case(Mechanism::DepthRead, CaseShader::Early);
     assert_eq!(missing(&lacking, &early), None);
     assert_eq!(faults(&mut rig, &early, Depth::Full).unwrap(), []);
     let how = How { clock, work: 2000, believed: false, mixed: true };

@@ -2,14 +2,14 @@
 
 use depthleap::experiment::probe::{compare, page, summary, text};
 use depthleap::probe::case::Case;
-use depthleap::probe::correct::Fault;
+use depthleap::probe::correct::CaseFault;
 use depthleap::probe::marks::MarkCost;
 use depthleap::probe::measure::{Cost, Mixed, ProbeClock};
-use depthleap::probe::record::{self, Correct, DeviceRecord, FORMAT, Line, Probe};
-use depthleap::probe::{Compare, Culling, CullingVerdict, History, Mechanism, Shader};
+use depthleap::probe::record::{self, Correct, DeviceRecord, FORMAT, MechanismRecord, Probe};
+use depthleap::probe::{CaseShader, Compare, Culling, CullingVerdict, History, Mechanism};
 use depthleap::provenance::Provenance;
 
-fn case(mechanism: Mechanism, shader: Shader) -> Case {
+fn case(mechanism: Mechanism, shader: CaseShader) -> Case {
     Case { mechanism, shader, compare: Compare::GreaterOrEqual }
 }
 
@@ -34,9 +34,9 @@ fn record() -> Probe {
         tile: Some(4),
         ..cost(Culling::Early, 0.02)
     };
-    let wrong = case(Mechanism::BoundsCompare, Shader::DepthLess);
+    let wrong = case(Mechanism::BoundsCompare, CaseShader::DepthLess);
     // No sample was counted of those that pass.
-    let fault = Fault {
+    let fault = CaseFault {
         what: "count".into(),
         format: "D32_SFLOAT".into(),
         history: History::Copy,
@@ -48,7 +48,7 @@ fn record() -> Probe {
         got: 0.0,
         pixels: [28, 28],
     };
-    let line = |case: Case, cost, faults| Line {
+    let line = |case: Case, cost, faults| MechanismRecord {
         case,
         promise: case.promise(),
         missing: None,
@@ -82,7 +82,7 @@ fn record() -> Probe {
         quick: true,
         formats: vec!["D32_SFLOAT".into()],
         lines: vec![
-            line(case(Mechanism::BoundsRead, Shader::Early), early, Vec::new()),
+            line(case(Mechanism::BoundsRead, CaseShader::Early), early, Vec::new()),
             line(wrong, cost(Culling::Late, 1.0), vec![fault]),
         ],
         marks: MarkCost { side: 512, fragdepth_ms: vec![2.0, 2.2, 2.1], copy_ms: vec![1.0] },

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use depthleap::read::{self, Choice};
+use depthleap::read::{self, ReadChoice};
 use depthleap::scene::settings::{Component, Orientation};
 
 use crate::damage::{Numbers, damaged, each, folder};
@@ -43,7 +43,7 @@ fn packed(encoding: &str) -> Vec<u8> {
 }
 
 /// A file and what has to be chosen of it.
-type Form = (Vec<u8>, Choice<'static>);
+type Form = (Vec<u8>, ReadChoice<'static>);
 
 /// Every form of an attached file; each holds 24 bytes. bzip2 is rare: its blocks take a megabyte to begin with.
 fn attached() -> Vec<Form> {
@@ -54,7 +54,7 @@ fn attached() -> Vec<Form> {
                 let header = format!("{front}{axes}encoding: {encoding}\n\n");
                 let (four, time) = (front == FOUR, axes.contains("time"));
                 let component = (four && !time).then_some(Component::Number(1));
-                let choice = Choice { component, frame: (four && time).then_some(1), ..Choice::default() };
+                let choice = ReadChoice { component, frame: (four && time).then_some(1), ..ReadChoice::default() };
                 let file = [header.as_bytes(), &packed(encoding)].concat();
                 assert!(is_right(&file, &choice), "{header}");
                 files.push((file, choice));
@@ -65,21 +65,21 @@ fn attached() -> Vec<Form> {
 }
 
 /// What is not damaged has to be read.
-fn is_right(file: &[u8], choice: &Choice) -> bool {
+fn is_right(file: &[u8], choice: &ReadChoice) -> bool {
     let folder = folder();
     std::fs::write(folder.path().join("a.nrrd"), file).unwrap();
     read::volume_with(&folder.path().join("a.nrrd"), None, choice).is_ok()
 }
 
 /// Mostly what is right for the file.
-fn chosen(right: &Choice<'static>, numbers: &mut Numbers) -> Choice<'static> {
+fn chosen(right: &ReadChoice<'static>, numbers: &mut Numbers) -> ReadChoice<'static> {
     let mut choice = *right;
     match numbers.below(16) {
         0 => choice.component = Some(Component::Luminance),
         1 => choice.component = Some(Component::Magnitude),
         2 => choice.component = Some(Component::Number(*numbers.pick(&[0, 1, 2, usize::MAX]))),
         3 => choice.frame = Some(*numbers.pick(&[0, 1, 2, usize::MAX])),
-        4 => choice = Choice::default(),
+        4 => choice = ReadChoice::default(),
         _ => {}
     }
     choice.orientation = *numbers.pick(&[Orientation::File, Orientation::Index]);
@@ -87,7 +87,7 @@ fn chosen(right: &Choice<'static>, numbers: &mut Numbers) -> Choice<'static> {
 }
 
 /// Whether the file was read; what was read is whole, and what was refused is named.
-fn is_read(path: &Path, named: &str, choice: &Choice) -> bool {
+fn is_read(path: &Path, named: &str, choice: &ReadChoice) -> bool {
     match read::volume_with(path, None, choice) {
         Ok(volume) => {
             assert_eq!(volume.voxels.len(), volume.dims.iter().product::<usize>());
@@ -158,7 +158,7 @@ fn detached_nrrd_files() {
         let path = folder.join("a.nhdr");
         let file = numbers.pick(&files);
         std::fs::write(&path, damaged(file.as_bytes(), numbers)).unwrap();
-        is_read(&path, "", &chosen(&Choice::default(), numbers))
+        is_read(&path, "", &chosen(&ReadChoice::default(), numbers))
     });
     assert!((INPUTS / 25..INPUTS - INPUTS / 25).contains(&read), "{read} of {INPUTS} volumes were read");
 }
@@ -175,7 +175,7 @@ fn noise() {
             let mut bytes = numbers.pick(&[&b""[..], b"NRRD0001\n", b"\x1f\x8b\x08", FRONT.as_bytes()]).to_vec();
             bytes.extend((0..numbers.below(300)).map(|_| numbers.below(256) as u8).collect::<Vec<_>>());
             std::fs::write(&path, &bytes).unwrap();
-            is_read(&path, "a.nrrd", &Choice::default())
+            is_read(&path, "a.nrrd", &ReadChoice::default())
         },
     );
 }

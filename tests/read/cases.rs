@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use depthleap::read::{self, ByteSkip, Choice, RawLayout};
+use depthleap::read::{self, ByteSkip, RawLayout, ReadChoice};
 use depthleap::scene::settings::TransferSettings;
 use depthleap::scene::volume::{Volume, VoxelType};
 use glam::DQuat;
@@ -215,7 +215,7 @@ fn a_sequence_with_a_long_header_is_a_stack_or_one_picture() {
     let whole = std::fs::read(folder().join(NAME)).unwrap();
     let data: Vec<f64> = whole[whole.len() - 48_000..].iter().copied().map(f64::from).collect();
     assert_eq!(values(&stack), data);
-    let choice = Choice { frame: Some(2999), ..Choice::default() };
+    let choice = ReadChoice { frame: Some(2999), ..ReadChoice::default() };
     let last = read::volume_with(&folder().join(NAME), None, &choice).unwrap();
     assert_eq!((last.dims, values(&last)), ([4, 4, 1], data[data.len() - 16..].to_vec()));
 }

@@ -1,6 +1,6 @@
 //! Files with several values a voxel: one is chosen, or they are made one.
 
-use depthleap::read::Choice;
+use depthleap::read::ReadChoice;
 use depthleap::scene::settings::Component::{self, Luminance, Magnitude, Number};
 use depthleap::scene::volume::Voxels;
 
@@ -30,11 +30,11 @@ const END: [usize; 4] = [2, 4, 5, 3];
 #[test]
 fn the_default_refuses_and_names_the_choices() {
     for (sizes, lines) in IN_FRONT.map(|lines| (FRONT, lines)).into_iter().chain(BEHIND.map(|lines| (END, lines))) {
-        let message = chosen(&sizes, lines, &Choice::default()).unwrap_err().to_string();
+        let message = chosen(&sizes, lines, &ReadChoice::default()).unwrap_err().to_string();
         let parts = ["volume.component (--component): is needed", "3 values", "0 to 2, luminance or magnitude"];
         assert!(parts.iter().all(|part| message.contains(part)), "{lines}: {message}");
     }
-    let two = chosen(&[2, 3, 4, 5], IN_FRONT[1], &Choice::default()).unwrap_err().to_string();
+    let two = chosen(&[2, 3, 4, 5], IN_FRONT[1], &ReadChoice::default()).unwrap_err().to_string();
     assert!(two.contains("choose 0 to 1, or magnitude"), "{two}");
 }
 
@@ -118,7 +118,7 @@ fn a_length_beyond_f32_stays_finite() {
 fn a_combined_value_without_one_of_its_parts_is_none() {
     let floats = [3.0, 4.0, -9999.0, 1.0, f32::NAN, f32::INFINITY, 6.0, 8.0].map(f32::to_le_bytes).concat();
     let lines = sized(&[2, 4, 1, 1], "kinds: vector domain domain domain\nendian: little").replace("uchar", "float");
-    let choice = Choice { no_data: &[-9999.0], ..component(Magnitude) };
+    let choice = ReadChoice { no_data: &[-9999.0], ..component(Magnitude) };
     let read = values(&read_with("a.nrrd", &nrrd(&lines, &floats), &choice).unwrap());
     assert_eq!((read[0], read[3]), (5.0, 10.0));
     assert!(read[1].is_nan() && read[2].is_nan(), "{read:?}");
@@ -140,14 +140,14 @@ fn choices_that_do_not_fit_are_refused_by_name() {
     }
     let only = chosen(&[1, 3, 4, 5], IN_FRONT[1], &component(Number(0))).unwrap();
     assert_eq!(bytes(&only), (0..60).collect::<Vec<u8>>());
-    let twice = chosen(&[2, 2, 3, 4, 5], "kinds: vector RGB-color domain domain domain", &Choice::default());
+    let twice = chosen(&[2, 2, 3, 4, 5], "kinds: vector RGB-color domain domain domain", &ReadChoice::default());
     assert!(twice.unwrap_err().to_string().contains("axes [0, 1] all number the values of a voxel"));
 }
 
 #[test]
 fn four_axes_that_say_nothing_are_refused_with_both_choices() {
     let sizes = [3, 2, 4, 5];
-    let message = chosen(&sizes, "", &Choice::default()).unwrap_err().to_string();
+    let message = chosen(&sizes, "", &ReadChoice::default()).unwrap_err().to_string();
     let parts = ["has 4 axes", "write `kinds`", "--component 0 to 2", "5 volumes with --frame 0 to 4"];
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     let first = chosen(&sizes, "", &component(Number(1))).unwrap();

@@ -1,6 +1,6 @@
 //! Sequences of volumes, stacks of pictures, and single pictures.
 
-use depthleap::read::Choice;
+use depthleap::read::ReadChoice;
 use depthleap::scene::settings::Component::Number;
 
 use crate::kit::{bytes, chosen, component, counted, frame, says, volume};
@@ -22,7 +22,7 @@ fn one_volume_of_a_sequence_is_taken_by_its_number() {
             let expected: Vec<u8> = (24 * n..24 * n + 24).collect();
             assert_eq!((volume.dims, bytes(&volume)), ([2, 3, 4], &expected[..]), "{lines}");
         }
-        let message = chosen(&[2, 3, 4, 5], lines, &Choice::default()).unwrap_err().to_string();
+        let message = chosen(&[2, 3, 4, 5], lines, &ReadChoice::default()).unwrap_err().to_string();
         let parts = ["volume.frame (--frame): is needed", "5 volumes", "from 0 to 4"];
         assert!(parts.iter().all(|part| message.contains(part)), "{lines}: {message}");
         let beyond = chosen(&[2, 3, 4, 5], lines, &frame(5)).unwrap_err().to_string();
@@ -43,7 +43,7 @@ fn time_in_front_is_a_sequence_too() {
 
 #[test]
 fn a_component_of_a_frame_is_taken_by_both_numbers() {
-    let choice = Choice { component: Some(Number(1)), ..frame(2) };
+    let choice = ReadChoice { component: Some(Number(1)), ..frame(2) };
     for lines in ["kinds: vector domain domain domain time", "kinds: vector space space space list"] {
         let volume = chosen(&[2, 3, 2, 4, 3], lines, &choice).unwrap();
         let expected: Vec<u8> = (0..24).map(|i| 2 * 24 * 2 + 2 * i + 1).collect();
@@ -87,7 +87,7 @@ fn a_picture_is_one_voxel_thick() {
     let colours = "kinds: RGB-color domain domain";
     let green = chosen(&[3, 2, 4], colours, &component(Number(1))).unwrap();
     assert_eq!((green.dims, bytes(&green)), ([2, 4, 1], &[1, 4, 7, 10, 13, 16, 19, 22][..]));
-    let message = chosen(&[3, 2, 4], colours, &Choice::default()).unwrap_err().to_string();
+    let message = chosen(&[3, 2, 4], colours, &ReadChoice::default()).unwrap_err().to_string();
     assert!(message.contains("--component"), "{message}");
 }
 
@@ -95,7 +95,7 @@ fn a_picture_is_one_voxel_thick() {
 fn fewer_than_two_axes_of_space_are_refused() {
     for (sizes, lines) in [(&[5][..], ""), (&[3, 5], "kinds: vector domain"), (&[3, 4, 5], "kinds: vector domain time")]
     {
-        let message = chosen(sizes, lines, &Choice::default()).unwrap_err().to_string();
+        let message = chosen(sizes, lines, &ReadChoice::default()).unwrap_err().to_string();
         assert!(message.contains("of which 1 may lie in space") && message.contains("(a picture)"), "{message}");
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use bzip2::write::BzEncoder;
 use depthleap::Result;
-use depthleap::read::{self, ByteSkip, Choice, RawLayout};
+use depthleap::read::{self, ByteSkip, RawLayout, ReadChoice};
 use depthleap::scene::settings::{Component, Orientation};
 use depthleap::scene::volume::{Volume, VoxelType, Voxels};
 use flate2::write::GzEncoder;
@@ -20,13 +20,13 @@ pub fn file(name: &str, bytes: &[u8]) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-pub fn read_with(name: &str, bytes: &[u8], choice: &Choice) -> Result<Volume> {
+pub fn read_with(name: &str, bytes: &[u8], choice: &ReadChoice) -> Result<Volume> {
     let (_folder, path) = file(name, bytes);
     read::volume_with(&path, None, choice)
 }
 
 pub fn read_as(name: &str, bytes: &[u8]) -> Result<Volume> {
-    read_with(name, bytes, &Choice::default())
+    read_with(name, bytes, &ReadChoice::default())
 }
 
 /// The volume in an attached file of these header lines and data.
@@ -73,25 +73,25 @@ pub fn counted(sizes: &[usize]) -> Vec<u8> {
 }
 
 /// The volume that is chosen of a file of such bytes.
-pub fn chosen(sizes: &[usize], lines: &str, choice: &Choice) -> Result<Volume> {
+pub fn chosen(sizes: &[usize], lines: &str, choice: &ReadChoice) -> Result<Volume> {
     read_with("a.nrrd", &nrrd(&sized(sizes, lines), &counted(sizes)), choice)
 }
 
 /// The same where nothing is chosen, and all is well.
 pub fn volume(sizes: &[usize], lines: &str) -> Volume {
-    chosen(sizes, lines, &Choice::default()).unwrap_or_else(|e| panic!("{lines}: {e}"))
+    chosen(sizes, lines, &ReadChoice::default()).unwrap_or_else(|e| panic!("{lines}: {e}"))
 }
 
-pub fn component(component: Component) -> Choice<'static> {
-    Choice { component: Some(component), ..Choice::default() }
+pub fn component(component: Component) -> ReadChoice<'static> {
+    ReadChoice { component: Some(component), ..ReadChoice::default() }
 }
 
-pub fn frame(frame: usize) -> Choice<'static> {
-    Choice { frame: Some(frame), ..Choice::default() }
+pub fn frame(frame: usize) -> ReadChoice<'static> {
+    ReadChoice { frame: Some(frame), ..ReadChoice::default() }
 }
 
-pub fn by_index() -> Choice<'static> {
-    Choice { orientation: Orientation::Index, ..Choice::default() }
+pub fn by_index() -> ReadChoice<'static> {
+    ReadChoice { orientation: Orientation::Index, ..ReadChoice::default() }
 }
 
 /// Little endian bytes with nothing in front.

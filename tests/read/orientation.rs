@@ -1,6 +1,6 @@
 //! How a volume lies: orders and mirrorings of its axes, rotations, shear, and spaces that are left-handed.
 
-use depthleap::read::Choice;
+use depthleap::read::ReadChoice;
 use depthleap::scene::volume::Volume;
 use glam::{DMat3, DQuat, DVec3};
 
@@ -162,7 +162,7 @@ fn a_sheared_volume_is_drawn_along_its_own_axes_with_a_warning() {
         ("space directions: (-1,0,0) (0,-1,0) (1,0,1)", "axes 0 and 2 meet at 135.0 degrees"),
         ("space directions: (1,0,0) (1,0,0) (0,0,1)", "axes 0 and 1 meet at 0.0 degrees"),
     ] {
-        for choice in [Choice::default(), by_index()] {
+        for choice in [ReadChoice::default(), by_index()] {
             let read = chosen(&SIZES, lines, &choice).unwrap();
             assert_eq!((read.dims, bytes(&read), read.turn), (SIZES, &counted(&SIZES)[..], DQuat::IDENTITY));
             assert!(says(&read.warnings, &["sheared", told, "along its own axes"]), "{:?}", read.warnings);
@@ -205,7 +205,7 @@ fn handedness_is_that_of_what_is_drawn() {
         ("LAS", over, true, false),
         ("LAS", sheared, false, false),
     ] {
-        for (choice, mirrored) in [(Choice::default(), by_file), (by_index(), own)] {
+        for (choice, mirrored) in [(ReadChoice::default(), by_file), (by_index(), own)] {
             let read = chosen(&SIZES, &format!("space: {space}\n{lines}"), &choice).unwrap();
             assert_eq!(says(&read.warnings, &["mirrored"]), mirrored, "{space}, {lines}: {:?}", read.warnings);
         }
@@ -227,7 +227,7 @@ fn a_stack_over_time_stands_square_to_its_pictures() {
 fn a_component_of_a_mirrored_volume_is_where_it_belongs() {
     use depthleap::scene::settings::Component::Number;
     let lines = "kinds: vector domain domain domain\nspace directions: none (0,1,0) (-1,0,0) (0,0,1)";
-    let choice = Choice { component: Some(Number(1)), ..Choice::default() };
+    let choice = ReadChoice { component: Some(Number(1)), ..ReadChoice::default() };
     let read = chosen(&[2, 2, 3, 4], lines, &choice).unwrap();
     let axes = DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z);
     let (dims, voxels) = permuted(axes);

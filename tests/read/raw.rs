@@ -1,6 +1,6 @@
 //! Bare voxels: sizes, bytes in front, and what does not belong to them.
 
-use depthleap::read::{self, ByteSkip, Choice, RawLayout};
+use depthleap::read::{self, ByteSkip, RawLayout, ReadChoice};
 use depthleap::scene::settings::Component;
 use depthleap::scene::volume::{VoxelType, Voxels};
 
@@ -87,7 +87,7 @@ fn components_and_frames_of_raw_voxels_are_refused_by_name() {
         (component(Component::Luminance), "volume.component (--component): is luminance"),
         (component(Component::Magnitude), "volume.component (--component): is magnitude"),
         (frame(1), "volume.frame (--frame): is 1"),
-        (Choice { component: Some(Component::Number(7)), ..frame(0) }, "volume.component (--component): is 7"),
+        (ReadChoice { component: Some(Component::Number(7)), ..frame(0) }, "volume.component (--component): is 7"),
     ] {
         let read = read::volume_with(&path, Some(layout([2, 1, 2], VoxelType::U8)), &choice);
         let message = read.unwrap_err().to_string();

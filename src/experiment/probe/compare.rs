@@ -1,7 +1,7 @@
 //! Two probes side by side: two devices, or two versions of a driver.
 
 use super::text::rate;
-use crate::probe::record::{Line, Probe};
+use crate::probe::record::{MechanismRecord, Probe};
 
 /// Rates within this factor are alike: machines are shared and noisy.
 const ALIKE: f64 = 1.5;
@@ -38,8 +38,8 @@ pub fn compare(ours: &Probe, theirs: &Probe) -> Vec<String> {
 }
 
 /// Whether a line is right, in the formats that both were asked for.
-fn right(line: &Line, other: &Line) -> String {
+fn right(line: &MechanismRecord, other: &MechanismRecord) -> String {
     let both = |format: &str| other.correct.iter().any(|correct| correct.format == format);
     let correct = line.correct.iter().filter(|correct| both(&correct.format)).cloned().collect();
-    Line { correct, ..line.clone() }.right()
+    MechanismRecord { correct, ..line.clone() }.right()
 }

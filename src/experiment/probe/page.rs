@@ -1,8 +1,8 @@
 //! The section of the report: the verdicts as a map of colours, the table, and every fault.
 
 use super::text::{facts, fault_lines, summary, table};
-use crate::probe::record::{Line, Probe};
-use crate::probe::{Mechanism, Pattern, Shader};
+use crate::probe::record::{MechanismRecord, Probe};
+use crate::probe::{CaseShader, Mechanism, Pattern};
 use crate::report::html::{Html, Intro};
 use crate::report::table::{Cell, Column, Table};
 
@@ -67,7 +67,7 @@ fn map(page: &mut Html, probe: &Probe) {
     page.raw("<p class=\"sub\">Green: culled before the shader. Red: the shader runs. A cross: what is left behind is wrong.</p>\n");
     let mechanisms = Mechanism::ALL.iter().map(|mechanism| Column::numbers(mechanism.words()));
     let mut table = Table::new([Column::words("shader")].into_iter().chain(mechanisms).collect());
-    for shader in Shader::ALL {
+    for shader in CaseShader::ALL {
         let cells = Mechanism::ALL.map(|mechanism| {
             // Of two compares the one a qualifier was made for comes first.
             let line = probe.lines.iter().find(|l| l.case.mechanism == mechanism && l.case.shader == shader);
@@ -78,7 +78,7 @@ fn map(page: &mut Html, probe: &Probe) {
     page.table(&table);
 }
 
-fn map_cell(line: &Line) -> Cell {
+fn map_cell(line: &MechanismRecord) -> Cell {
     if let Some(missing) = &line.missing {
         return cell("–", None, missing);
     }
@@ -91,7 +91,7 @@ fn map_cell(line: &Line) -> Cell {
 
 /// Cases that are culled by patterns.
 fn patterns(page: &mut Html, probe: &Probe) {
-    let lines: Vec<(&Line, &[crate::probe::measure::Mixed])> = probe
+    let lines: Vec<(&MechanismRecord, &[crate::probe::measure::Mixed])> = probe
         .lines
         .iter()
         .filter_map(|line| Some((line, line.cost.as_ref()?.mixed.as_slice())))

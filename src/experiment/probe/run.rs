@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::measure::write::{create_folder, write_json};
 use crate::probe::Probe;
 use crate::probe::record::{DeviceRecord, FORMAT};
-use crate::probe::run::{Found, probe};
+use crate::probe::run::{Findings, probe};
 use crate::provenance::Provenance;
 use crate::vulkan::Device;
 
@@ -15,7 +15,7 @@ use crate::vulkan::Device;
 /// What the driver reports.
 pub fn run(device: &Arc<Device>, quick: bool, say: &dyn Fn(&str)) -> Result<Probe> {
     let provenance = Provenance::now(FORMAT);
-    let Found { clock, statistics, work, sides, formats, lines, marks } = probe(device, quick, say)?;
+    let Findings { clock, statistics, work, sides, formats, lines, marks } = probe(device, quick, say)?;
     let device = DeviceRecord::from(&device.info);
     Ok(Probe { provenance, device, clock, statistics, work, sides, quick, formats, lines, marks })
 }

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use crate::measure::statistics::Statistics;
-use crate::probe::record::{Line, Probe};
-use crate::probe::{Culling, Fault, Mechanism};
+use crate::probe::record::{MechanismRecord, Probe};
+use crate::probe::{CaseFault, Culling, Mechanism};
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
 
 /// Lines of a probe as rows of a table.
-pub(super) fn table<'a>(lines: impl Iterator<Item = &'a Line>) -> Table {
+pub(super) fn table<'a>(lines: impl Iterator<Item = &'a MechanismRecord>) -> Table {
     let heads = ["shader", "right", "culled", "by the specification", "work left", "rejected in 1 s"];
     let mut table = Table::new(heads.map(Column::words).to_vec());
     lines.for_each(|line| table.row(row(line)));
@@ -64,7 +64,7 @@ pub(super) fn facts(probe: &Probe) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn row(line: &Line) -> [String; 6] {
+fn row(line: &MechanismRecord) -> [String; 6] {
     let share = line.cost.as_ref().and_then(|cost| cost.verdict.share);
     [
         line.case.shader_words(),
@@ -88,9 +88,9 @@ pub(super) fn rate(per_second: f64) -> String {
 /// The first fault of each kind, ready to be pasted into a report of a bug, and where else it is; all of them are in the
 /// JSON.
 pub(super) fn fault_lines(probe: &Probe) -> Vec<String> {
-    let all: Vec<(&Line, &Fault)> =
+    let all: Vec<(&MechanismRecord, &CaseFault)> =
         probe.lines.iter().flat_map(|line| line.faults().map(move |fault| (line, fault))).collect();
-    let kind = |(line, fault): &(&Line, &Fault)| (line.case.mechanism, fault.what.clone());
+    let kind = |(line, fault): &(&MechanismRecord, &CaseFault)| (line.case.mechanism, fault.what.clone());
     let mut kinds: Vec<_> = all.iter().map(kind).collect();
     kinds.dedup();
     let mut lines = Vec::new();
@@ -100,7 +100,7 @@ pub(super) fn fault_lines(probe: &Probe) -> Vec<String> {
         }
         let these: Vec<_> = all.iter().filter(|one| kind(one) == *found).collect();
         let Some((first, fault)) = these.first() else { continue };
-        let list = |words: &dyn Fn(&(&Line, &Fault)) -> String| {
+        let list = |words: &dyn Fn(&(&MechanismRecord, &CaseFault)) -> String| {
             let mut list: Vec<String> = Vec::new();
             for one in &these {
                 let word = words(one);
@@ -129,7 +129,7 @@ pub(super) fn fault_lines(probe: &Probe) -> Vec<String> {
 
 /// What it comes to, in sentences made from the measurements.
 pub fn summary(probe: &Probe) -> Vec<String> {
-    let asked: Vec<&Line> = probe.lines.iter().filter(|line| line.missing.is_none()).collect();
+    let asked: Vec<&MechanismRecord> = probe.lines.iter().filter(|line| line.missing.is_none()).collect();
     let wrong = asked.iter().filter(|line| line.faults().next().is_some()).count();
     let mut sentences = vec![match wrong {
         0 => format!("All {} cases are right.", asked.len()),
@@ -150,13 +150,13 @@ pub fn summary(probe: &Probe) -> Vec<String> {
 }
 
 /// The thesis' open question, answered for this driver.
-fn depth_bounds(asked: &[&Line]) -> String {
-    let bounds: Vec<&&Line> = asked.iter().filter(|line| line.case.mechanism.bounds()).collect();
+fn depth_bounds(asked: &[&MechanismRecord]) -> String {
+    let bounds: Vec<&&MechanismRecord> = asked.iter().filter(|line| line.case.mechanism.bounds()).collect();
     if bounds.is_empty() {
         return "The device has no depth bounds test.".to_owned();
     }
-    let part = |name: &str, of: &dyn Fn(&Line) -> bool| {
-        let these: Vec<&&&Line> = bounds.iter().filter(|line| of(line)).collect();
+    let part = |name: &str, of: &dyn Fn(&MechanismRecord) -> bool| {
+        let these: Vec<&&&MechanismRecord> = bounds.iter().filter(|line| of(line)).collect();
         let early = these.iter().filter(|line| line.culling() == Some(Culling::Early)).count();
         match (early, these.len()) {
             (0, _) => format!("never where {name}"),

@@ -7,7 +7,7 @@ use super::header::{Encoding, Header};
 use crate::error::{Error, Result};
 use crate::read::packed::{self, Members, Packing};
 use crate::read::raw::{self, ByteSkip};
-use crate::read::source::{MOST_COUNTED, Source};
+use crate::read::source::{ByteSource, MOST_COUNTED};
 use crate::read::voxels::{self, Fault, TextFault};
 use crate::scene::volume::Voxels;
 
@@ -16,7 +16,7 @@ pub struct Data<'a> {
     /// The file the data lies in.
     pub path: &'a Path,
     pub header: &'a Header,
-    pub source: &'a mut Source,
+    pub source: &'a mut ByteSource,
     /// Voxels the file holds.
     pub count: usize,
     /// Bytes of these voxels, unpacked.
@@ -185,7 +185,7 @@ fn counted(bytes: u64, what: &str) -> Option<String> {
 
 /// The bytes that pairs of hexadecimal digits stand for; white space may stand anywhere.
 struct Hex<'a> {
-    stream: &'a mut Source,
+    stream: &'a mut ByteSource,
     /// Digits read.
     at: u64,
 }

@@ -17,12 +17,12 @@ pub enum Names {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Several {
     List(Vec<PathBuf>),
-    Pattern(Pattern),
+    NumberedNames(NumberedNames),
 }
 
 /// Names made by printf from the numbers first, first + step, ... up to last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pattern {
+pub struct NumberedNames {
     before: Vec<u8>,
     after: Vec<u8>,
     /// Filled with 0 where it is, else with spaces.
@@ -70,7 +70,7 @@ impl Names {
                 continue;
             };
             let name = without_last_words(value, count);
-            let Some(pattern) = Pattern::of(name, [*first, *last, *step]) else { continue };
+            let Some(pattern) = NumberedNames::of(name, [*first, *last, *step]) else { continue };
             let subdim = match rest.first().map(|n| usize::try_from(*n)) {
                 Some(Err(_)) => return Err(("has a negative number of axes", "write `NAME MIN MAX STEP SUBDIM`")),
                 subdim => subdim.and_then(Result::ok),
@@ -81,7 +81,7 @@ impl Names {
                     "write NAME%03d MIN MAX STEP, with a step from MIN to MAX",
                 ));
             }
-            return Ok(Self::Several(Several::Pattern(pattern), subdim));
+            return Ok(Self::Several(Several::NumberedNames(pattern), subdim));
         }
         let name = file_name::name(value.to_vec());
         name.map(|name| Self::One(name.into())).map_err(|_| ("is not a name on this system", "rename the file"))
@@ -97,7 +97,7 @@ fn without_last_words(mut value: &[u8], count: usize) -> &[u8] {
     value.trim_ascii()
 }
 
-impl Pattern {
+impl NumberedNames {
     /// None where the name has no place for a number.
     fn of(name: &[u8], [first, last, step]: [i64; 3]) -> Option<Self> {
         let mut pattern = Self { before: Vec::new(), after: Vec::new(), zeros: false, width: 0, first, last, step };
@@ -139,7 +139,7 @@ impl Several {
     pub fn count(&self) -> u64 {
         match self {
             Self::List(names) => names.len() as u64,
-            Self::Pattern(p) => (p.last.abs_diff(p.first) / p.step.unsigned_abs()).saturating_add(1),
+            Self::NumberedNames(p) => (p.last.abs_diff(p.first) / p.step.unsigned_abs()).saturating_add(1),
         }
     }
 
@@ -148,7 +148,7 @@ impl Several {
     pub fn name(&self, i: u64) -> Option<PathBuf> {
         match self {
             Self::List(names) => names.get(usize::try_from(i).ok()?).cloned(),
-            Self::Pattern(p) => {
+            Self::NumberedNames(p) => {
                 // Between the ends, and yet i * step may be beyond them.
                 let n = i128::from(p.first) + i128::from(i) * i128::from(p.step);
                 file_name::name(p.name(n)).ok().map(PathBuf::from)

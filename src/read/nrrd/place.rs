@@ -8,13 +8,13 @@ use super::axes::{Axis, Direction};
 use super::header::Header;
 use super::roles::Roles;
 use crate::error::{Error, Result};
-use crate::read::Choice;
+use crate::read::ReadChoice;
 use crate::read::orient::{self, Lie};
 use crate::read::pick::{Combined, Picked};
 use crate::scene::settings::Component;
 
 /// Where the voxels of a volume are found in the file, and where they lie in volume space.
-pub struct Place {
+pub struct DataPlace {
     pub picked: Picked,
     pub spacing: [f64; 3],
     pub turn: DQuat,
@@ -45,7 +45,7 @@ enum Third {
 ///
 /// # Errors
 /// When a spacing is 0 or infinite, or fields contradict each other.
-pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Result<Place> {
+pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &ReadChoice) -> Result<DataPlace> {
     let axes = &header.axes;
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     let third = match (roles.space.get(2), roles.frame) {
@@ -96,7 +96,7 @@ pub fn place(path: &Path, header: &Header, roles: &Roles, choice: &Choice) -> Re
         warnings.push(format!("the picture shows the volume mirrored: {why}, and pictures are right-handed"));
     }
     let picked = picked(axes, roles, choice, [Some(plane[0]), Some(plane[1]), third.axis()], &lie);
-    Ok(Place { picked, spacing: lie.axes.map(|(axis, _)| spacing[axis]), turn: lie.turn, notes, warnings })
+    Ok(DataPlace { picked, spacing: lie.axes.map(|(axis, _)| spacing[axis]), turn: lie.turn, notes, warnings })
 }
 
 impl Third {
@@ -128,7 +128,7 @@ fn directions(axes: &[Axis], plane: [usize; 2], third: Third) -> Option<[DVec3; 
 }
 
 /// Where the values of the voxels are found, with the axes as they lie.
-fn picked(axes: &[Axis], roles: &Roles, choice: &Choice, own: [Option<usize>; 3], lie: &Lie) -> Picked {
+fn picked(axes: &[Axis], roles: &Roles, choice: &ReadChoice, own: [Option<usize>; 3], lie: &Lie) -> Picked {
     let mut steps = vec![1isize];
     for axis in axes {
         steps.push(steps[steps.len() - 1].saturating_mul(axis.size as isize));

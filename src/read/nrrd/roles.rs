@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::axes::{Axis, Direction};
 use crate::error::{Error, Result};
-use crate::read::Choice;
+use crate::read::ReadChoice;
 use crate::scene::settings::Component;
 
 /// The axes of a file by what they mean. Others have one entry.
@@ -18,7 +18,7 @@ pub struct Roles {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Role {
+enum AxisRole {
     Space,
     Component,
     Frame,
@@ -26,14 +26,14 @@ enum Role {
     Unsaid,
 }
 
-fn role(axis: &Axis, last: bool) -> Role {
-    let beyond_space = if last { Role::Frame } else { Role::Component };
+fn role(axis: &Axis, last: bool) -> AxisRole {
+    let beyond_space = if last { AxisRole::Frame } else { AxisRole::Component };
     match (axis.kind.as_deref(), axis.direction) {
-        (Some("time"), _) => Role::Frame,
+        (Some("time"), _) => AxisRole::Frame,
         (Some("list"), _) | (None | Some("domain" | "space"), Direction::None) => beyond_space,
-        (Some("domain" | "space"), _) | (None, Direction::Known(..)) => Role::Space,
-        (None, _) => Role::Unsaid,
-        (Some(_), _) => Role::Component,
+        (Some("domain" | "space"), _) | (None, Direction::Known(..)) => AxisRole::Space,
+        (None, _) => AxisRole::Unsaid,
+        (Some(_), _) => AxisRole::Component,
     }
 }
 
@@ -41,20 +41,21 @@ fn role(axis: &Axis, last: bool) -> Role {
 ///
 /// # Errors
 /// When the header does not say enough, or says that the file is no volume.
-pub fn of(path: &Path, axes: &[Axis], choice: &Choice) -> Result<Roles> {
+pub fn of(path: &Path, axes: &[Axis], choice: &ReadChoice) -> Result<Roles> {
     let last = |a: usize| a + 1 == axes.len();
-    let mut roles: Vec<Role> = axes.iter().enumerate().map(|(a, axis)| role(axis, last(a))).collect();
-    let said = roles.iter().filter(|role| **role == Role::Space).count();
-    for (a, role) in roles.iter_mut().enumerate().filter(|(_, role)| **role == Role::Unsaid) {
+    let mut roles: Vec<AxisRole> = axes.iter().enumerate().map(|(a, axis)| role(axis, last(a))).collect();
+    let said = roles.iter().filter(|role| **role == AxisRole::Space).count();
+    for (a, role) in roles.iter_mut().enumerate().filter(|(_, role)| **role == AxisRole::Unsaid) {
         *role = match said {
-            0..3 => Role::Space,
-            _ if last(a) => Role::Frame,
-            _ => Role::Component,
+            0..3 => AxisRole::Space,
+            _ if last(a) => AxisRole::Frame,
+            _ => AxisRole::Component,
         };
     }
-    let with = |wanted: Role| (0..axes.len()).filter(|a| roles[*a] == wanted).collect::<Vec<_>>();
-    let many = |wanted: Role| with(wanted).into_iter().filter(|a| axes[*a].size > 1).collect::<Vec<_>>();
-    let (mut space, mut components, mut frames) = (with(Role::Space), many(Role::Component), many(Role::Frame));
+    let with = |wanted: AxisRole| (0..axes.len()).filter(|a| roles[*a] == wanted).collect::<Vec<_>>();
+    let many = |wanted: AxisRole| with(wanted).into_iter().filter(|a| axes[*a].size > 1).collect::<Vec<_>>();
+    let (mut space, mut components, mut frames) =
+        (with(AxisRole::Space), many(AxisRole::Component), many(AxisRole::Frame));
     while space.len() > AXES {
         let (first, end) = (space[0], space.len() - 1);
         if axes[first].size == 1 {
@@ -108,7 +109,7 @@ impl Roles {
     ///
     /// # Errors
     /// When a choice is missing, does not apply to the file, or lies outside what it holds.
-    pub fn check(&self, path: &Path, axes: &[Axis], choice: &Choice) -> Result<()> {
+    pub fn check(&self, path: &Path, axes: &[Axis], choice: &ReadChoice) -> Result<()> {
         let size = |axis: Option<usize>| axis.map_or(1, |a| axes[a].size);
         let kind = self.component.and_then(|a| axes[a].kind.as_deref());
         self.check_component(path, size(self.component), kind, choice)?;
@@ -130,7 +131,7 @@ impl Roles {
         }
     }
 
-    fn check_component(&self, path: &Path, count: usize, kind: Option<&str>, choice: &Choice) -> Result<()> {
+    fn check_component(&self, path: &Path, count: usize, kind: Option<&str>, choice: &ReadChoice) -> Result<()> {
         let has_luminance = count >= COLOURS && kind.is_none_or(|kind| MAY_BE_RGB.contains(&kind));
         let words = if has_luminance { "luminance or magnitude" } else { "or magnitude" };
         let known = format!("choose 0 to {}, {words}", count - 1);

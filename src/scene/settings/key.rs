@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::Error;
-use crate::scene::limits::{Allowed, Limits, Wrong};
+use crate::scene::limits::{Allowed, Limits, WrongValue};
 
 /// A key of a scene file, with what else is said of it in its section.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl Key {
         self.option.as_ref().map_or(key.clone(), |option| format!("{key} (--{option})"))
     }
 
-    pub(super) fn error(&self, wrong: Wrong) -> Error {
+    pub(super) fn error(&self, wrong: WrongValue) -> Error {
         Error::usage(self.named(), wrong.problem, wrong.remedy)
     }
 

@@ -17,7 +17,7 @@ section! {
 
     /// The render method
     #[arg(skip)]
-    name: MethodName = MethodName::default();
+    name: MethodName = Default::default();
 
     /// How fragments are culled
     #[arg(long, value_name = "TEST")]
@@ -34,7 +34,7 @@ section! {
     /// Mark a ray as gone as soon as its next section lies beyond its end
     #[arg(
         long = "no-exit-lookahead", num_args = 0, default_missing_value = "false",
-        help = "nn-*: notice that a ray has left the volume only on arrival, as the papers do"
+        help = "Notice that a ray has left the volume only on arrival, as the papers do (nn-*)"
     )]
     exit_lookahead: bool = true;
 

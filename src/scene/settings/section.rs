@@ -14,7 +14,7 @@
 ///     #[arg(long, value_name = "VOXELS")]                     the option, as clap has it; `skip` where there is none
 ///     step: f64 = 1.0,                                        field, type and default
 ///         within Limits::from_to(1e-4, 1e6, "voxels {}"),     the numbers allowed: checked, told in help and errors
-///         by rule,                                            another check: `fn(&T) -> Option<Wrong>`
+///         by rule,                                            another check: `fn(&T) -> Option<WrongValue>`
 ///         default "one";                                      the default in words, where its value is not enough
 ///
 ///     #[arg(long)]
@@ -107,7 +107,7 @@ macro_rules! section {
             /// When one is not, by its key and its option.
             pub(super) fn check(&self) -> $crate::error::Result<()> {
                 #[allow(unused, reason = "not every section has a check")]
-                let refuse = |id: &str, wrong: Option<$crate::scene::limits::Wrong>| match wrong {
+                let refuse = |id: &str, wrong: Option<$crate::scene::limits::WrongValue>| match wrong {
                     Some(wrong) => {
                         Self::keys().iter().find(|key| key.id == id).map_or(Ok(()), |key| Err(key.error(wrong)))
                     }

@@ -8,7 +8,7 @@ use super::parse::{counts, number, numbers};
 use super::section::section;
 use crate::scene::field::{NanPolicy, Normalisation};
 use crate::scene::fixed;
-use crate::scene::limits::{Allowed, Limits, Wrong};
+use crate::scene::limits::{Allowed, Limits, WrongValue};
 use crate::scene::range::RangeEnd;
 use crate::scene::volume::VoxelType;
 use crate::scene::volume_choice::{Component, Endian, Orientation};
@@ -134,7 +134,7 @@ fn range(text: &str) -> Result<[RangeEnd; 2], String> {
 }
 
 /// What is wrong with a scalar range: an end that is none, or the high one first.
-fn ordered(range: &Option<[RangeEnd; 2]>) -> Option<Wrong> {
+fn ordered(range: &Option<[RangeEnd; 2]>) -> Option<WrongValue> {
     let range = range.as_ref()?;
     let upside_down = match *range {
         [RangeEnd::Value(low), RangeEnd::Value(high)] | [RangeEnd::Percentile(low), RangeEnd::Percentile(high)] => {
@@ -142,7 +142,7 @@ fn ordered(range: &Option<[RangeEnd; 2]>) -> Option<Wrong> {
         }
         _ => false,
     };
-    (upside_down || !range.iter().all(|end| end.is_sound())).then(|| Wrong {
+    (upside_down || !range.iter().all(|end| end.is_sound())).then(|| WrongValue {
         problem: format!("is [{}]", range.map(|end| end.to_string()).join(", ")),
         remedy: "give two finite numbers or percentages from 0% to 100%, the low one first".to_owned(),
     })

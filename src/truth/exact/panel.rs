@@ -22,13 +22,13 @@ const STEEPEST: f64 = 3.0;
 const DEEPEST: u32 = 52;
 
 /// Gauss-Legendre nodes and weights on [0, 1], and the collocation matrix that integrates from 0 to each node.
-struct Rule {
+struct Quadrature {
     nodes: [f64; POINTS],
     weights: [f64; POINTS],
     to_node: [[f64; POINTS]; POINTS],
 }
 
-static RULE: LazyLock<Rule> = LazyLock::new(|| {
+static RULE: LazyLock<Quadrature> = LazyLock::new(|| {
     let mut nodes = [0.0; POINTS];
     let mut weights = [0.0; POINTS];
     for i in 0..POINTS {
@@ -54,7 +54,7 @@ static RULE: LazyLock<Rule> = LazyLock::new(|| {
     let to_node = std::array::from_fn(|j| {
         std::array::from_fn(|k| (0..POINTS).map(|m| nodes[j] * weights[m] * lagrange(k, nodes[j] * nodes[m])).sum())
     });
-    Rule { nodes, weights, to_node }
+    Quadrature { nodes, weights, to_node }
 });
 
 /// One linear piece of a transfer function, between two knots or beyond them all.
@@ -129,7 +129,7 @@ impl Segment {
 
 /// What a stretch does to light: enough to composite stretches, and to colour them afterwards.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stretch {
+pub struct StretchEffect {
     /// Optical depth.
     pub tau: f64,
     /// integral of w(s) sigma(s) exp(-tau(s)) ds, with w the part of the piece that x has gone since the begin: times the
@@ -137,7 +137,7 @@ pub struct Stretch {
     pub rise: f64,
 }
 
-impl Stretch {
+impl StretchEffect {
     pub fn opacity(&self) -> f64 {
         -(-self.tau).exp_m1()
     }
@@ -163,16 +163,16 @@ pub struct Medium<'a> {
 
 impl Medium<'_> {
     /// The stretch [a, b] behind a medium of the given `transmittance`.
-    pub fn stretch(&self, a: f64, b: f64, transmittance: f64) -> Stretch {
+    pub fn stretch(&self, a: f64, b: f64, transmittance: f64) -> StretchEffect {
         if self.x.is_constant() {
-            return Stretch { tau: self.segment.extinction(self.x.at(a)) * self.scale * (b - a), rise: 0.0 };
+            return StretchEffect { tau: self.segment.extinction(self.x.at(a)) * self.scale * (b - a), rise: 0.0 };
         }
         self.halved(a, b, self.panel(a, b), transmittance, DEEPEST)
     }
 
     /// Compares a panel with its two halves and goes on into them until both say the same. Halving towards a
     /// logarithmic pole of sigma halves its error each time, so that too ends soon.
-    fn halved(&self, a: f64, b: f64, whole: Stretch, transmittance: f64, left: u32) -> Stretch {
+    fn halved(&self, a: f64, b: f64, whole: StretchEffect, transmittance: f64, left: u32) -> StretchEffect {
         let middle = 0.5 * (a + b);
         let (mut front, mut back) = (self.panel(a, middle), self.panel(middle, b));
         let higher = self.segment.weight(self.x.at(middle)) - self.segment.weight(self.x.at(a));
@@ -189,7 +189,7 @@ impl Medium<'_> {
 
     /// One application of the rule. By parts, `rise` is integral of w'(s) (exp(-tau(s)) - exp(-tau(end))) ds,
     /// which stays bounded where sigma does not.
-    fn panel(&self, a: f64, b: f64) -> Stretch {
+    fn panel(&self, a: f64, b: f64) -> StretchEffect {
         let rule = &*RULE;
         let length = b - a;
         let place = rule.nodes.map(|node| a + length * node);
@@ -207,6 +207,6 @@ impl Medium<'_> {
             .sum();
         // Light of the stretch has a colour of the piece, however steep sigma is.
         let (begin, opacity) = (self.segment.weight(self.x.at(a)), 1.0 - end);
-        Stretch { tau, rise: rise.clamp(-begin * opacity, (1.0 - begin) * opacity) }
+        StretchEffect { tau, rise: rise.clamp(-begin * opacity, (1.0 - begin) * opacity) }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::Pod;
 use depthleap::shared::Frame;
 use depthleap::vulkan::{
-    Buffer, BufferInfo, Commands, ComputePipeline, DescriptorSet, Device, Image, ImageInfo, Place, Region, Resource,
+    Bound, Buffer, BufferInfo, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place,
     Scope, vk,
 };
 
@@ -18,7 +18,7 @@ const GROUP: usize = 64;
 #[derive(Default)]
 pub struct Setup<'a> {
     pub frame: Option<Frame>,
-    pub resources: Vec<(&'a str, Resource<'a>)>,
+    pub resources: Vec<(&'a str, Bound<'a>)>,
 }
 
 /// A compute shader of this folder, compiled once.
@@ -52,9 +52,9 @@ impl Evaluator {
         frame.write(0, bytemuck::bytes_of(&setup.frame.unwrap_or(bytemuck::Zeroable::zeroed()))).unwrap();
 
         let mut resources = setup.resources.clone();
-        resources.push(("arguments", Resource::Storage(&from)));
-        resources.push(("results", Resource::Storage(&to)));
-        resources.push(("frame", Resource::Uniform(&frame)));
+        resources.push(("arguments", Bound::Storage(&from)));
+        resources.push(("results", Bound::Storage(&to)));
+        resources.push(("frame", Bound::Uniform(&frame)));
         let set = DescriptorSet::new(&self.device, &self.name, &self.pipeline.layout, &resources).unwrap();
         run(&self.device, &self.name, |commands| {
             commands.bind_compute(&self.pipeline, &set);
@@ -86,7 +86,7 @@ pub fn image(device: &Arc<Device>, name: &str, extent: [u32; 3], format: vk::For
     let to = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
     run(device, name, |commands| {
         commands.image_barrier(&image, Scope::NONE, write, vk::ImageLayout::UNDEFINED, to);
-        commands.copy_buffer_to_image(&from, &image, Region::whole(&image));
+        commands.copy_buffer_to_image(&from, &image, CopyRegion::whole(&image));
         commands.image_barrier(&image, write, read, to, SAMPLED);
     });
     image

@@ -6,7 +6,7 @@ use depthleap::scene::Scene;
 use depthleap::scene::settings::Offset;
 use depthleap::shared::Frame;
 use depthleap::twin::{Pixel, Twin};
-use depthleap::vulkan::{Device, Resource, Sampler, vk};
+use depthleap::vulkan::{Bound, Device, Sampler, vk};
 use glam::DVec3;
 
 use super::kit::{Evaluator, ROUNDING, Random, SAMPLED, Setup, Worst, image};
@@ -84,8 +84,8 @@ fn cases(device: &Arc<Device>, evaluator: &Evaluator, scene: &Scene) -> Vec<Case
     let setup = Setup {
         frame: Some(Frame::new(scene, &twin.rays, 1, [0; 2])),
         resources: vec![
-            ("entry", Resource::Sampled(&entry, &sampler, SAMPLED)),
-            ("direction", Resource::Sampled(&direction, &sampler, SAMPLED)),
+            ("entry", Bound::Sampled(&entry, &sampler, SAMPLED)),
+            ("direction", Bound::Sampled(&direction, &sampler, SAMPLED)),
         ],
     };
     let results: Vec<[[f32; 4]; 4]> = evaluator.run(&setup, &arguments);

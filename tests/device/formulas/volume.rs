@@ -7,7 +7,7 @@ use depthleap::scene::transfer::Knot;
 use depthleap::scene::{Scene, TransferFunction};
 use depthleap::shared::{Frame, pieces, rows};
 use depthleap::structure::blocks::{Blocks, range_codes};
-use depthleap::vulkan::{Buffer, BufferInfo, Device, Place, Resource, Sampler, vk};
+use depthleap::vulkan::{Bound, Buffer, BufferInfo, Device, Place, Sampler, vk};
 use glam::DVec3;
 
 use super::kit::{Evaluator, ROUNDING, Random, SAMPLED, Setup, Worst, image};
@@ -62,8 +62,8 @@ fn results(device: &Arc<Device>, scene: &Scene, arguments: &[Arguments]) -> Vec<
     let setup = Setup {
         frame: Some(Frame::new(scene, &scene.camera.rays([4, 4]).unwrap(), 1, [0; 2])),
         resources: vec![
-            ("volume", Resource::Sampled(&volume, &sampler, SAMPLED)),
-            ("transfer", Resource::Storage(&transfer)),
+            ("volume", Bound::Sampled(&volume, &sampler, SAMPLED)),
+            ("transfer", Bound::Storage(&transfer)),
         ],
     };
     let constants = [("PIECES", count), ("SEARCH", count.next_power_of_two() / 2)];

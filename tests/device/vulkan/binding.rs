@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use depthleap::glsl;
 use depthleap::vulkan::{
-    Buffer, ComputePipeline, DescriptorSet, Device, Image, ImageInfo, Place, Region, Resource, Sampler, Scope, Shader,
-    vk,
+    Bound, Buffer, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place, Sampler, Scope,
+    ShaderModule, vk,
 };
 
 use super::canvas::Canvas;
@@ -35,7 +35,7 @@ fn counter(device: &Arc<Device>, constants: &[(&str, u32)]) -> ComputePipeline {
 }
 
 fn bound(device: &Arc<Device>, pipeline: &ComputePipeline, numbers: &Buffer) -> DescriptorSet {
-    let resources = [("numbers", Resource::Storage(numbers))];
+    let resources = [("numbers", Bound::Storage(numbers))];
     DescriptorSet::new(device, "numbers of counter", &pipeline.layout, &resources).unwrap()
 }
 
@@ -50,7 +50,7 @@ fn texel(device: &Arc<Device>, name: &str, value: f32) -> Image {
     let (to, read) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     run(device, "texel", |commands| {
         commands.image_barrier(&image, Scope::NONE, COPY_WRITE, vk::ImageLayout::UNDEFINED, to);
-        commands.copy_buffer_to_image(&bytes, &image, Region::whole(&image));
+        commands.copy_buffer_to_image(&bytes, &image, CopyRegion::whole(&image));
         commands.image_barrier(&image, COPY_WRITE, COMPUTE, to, read);
     });
     image
@@ -59,9 +59,9 @@ fn texel(device: &Arc<Device>, name: &str, value: f32) -> Image {
 fn missing_binding_is_refused_by_name(device: &Arc<Device>) {
     let pipeline = counter(device, &[]);
     let other = buffer(device, "other", 4, Place::Device);
-    let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &[("others", Resource::Storage(&other))]);
+    let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &[("others", Bound::Storage(&other))]);
     refused(set, &["set of counter", "numbers takes 1 resources, 0 of that name are given", "others"]);
-    let twice = [("numbers", Resource::Storage(&other)); 2];
+    let twice = [("numbers", Bound::Storage(&other)); 2];
     let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &twice);
     refused(set, &["set of counter", "numbers takes 1 resources, 2 of that name are given"]);
 }
@@ -70,11 +70,11 @@ fn binding_of_another_kind_is_refused_by_name(device: &Arc<Device>) {
     let pipeline = counter(device, &[]);
     let image = texel(device, "image", 1.0);
     let sampler = Sampler::new(device, "nearest", false).unwrap();
-    let sampled = Resource::Sampled(&image, &sampler, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+    let sampled = Bound::Sampled(&image, &sampler, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &[("numbers", sampled)]);
     refused(set, &["set of counter", "numbers is STORAGE_BUFFER, COMBINED_IMAGE_SAMPLER is given"]);
     let numbers = buffer(device, "numbers", 4, Place::Device);
-    let uniform = [("numbers", Resource::Uniform(&numbers))];
+    let uniform = [("numbers", Bound::Uniform(&numbers))];
     let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &uniform);
     refused(set, &["set of counter", "numbers is STORAGE_BUFFER, UNIFORM_BUFFER is given"]);
 }
@@ -84,8 +84,8 @@ fn array_takes_its_resources_in_order(device: &Arc<Device>) {
     let (two, three) = (texel(device, "two", 2.0), texel(device, "three", 3.0));
     let sampler = Sampler::new(device, "nearest", false).unwrap();
     let total = buffer(device, "total", 4, Place::Readback);
-    let read = |image| Resource::Sampled(image, &sampler, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
-    let sum = ("total", Resource::Storage(&total));
+    let read = |image| Bound::Sampled(image, &sampler, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+    let sum = ("total", Bound::Storage(&total));
     let resources = [("textures", read(&two)), sum, ("textures", read(&three))];
     let set = DescriptorSet::new(device, "set of summer", &pipeline.layout, &resources).unwrap();
     run(device, "sum", |commands| {
@@ -100,7 +100,7 @@ fn array_takes_its_resources_in_order(device: &Arc<Device>) {
 fn names_that_shaders_do_not_have_are_ignored(device: &Arc<Device>) {
     let pipeline = counter(device, &[]);
     let numbers = buffer(device, "numbers", 4, Place::Device);
-    let resources = [("numbers", Resource::Storage(&numbers)), ("others", Resource::Storage(&numbers))];
+    let resources = [("numbers", Bound::Storage(&numbers)), ("others", Bound::Storage(&numbers))];
     DescriptorSet::new(device, "set of counter", &pipeline.layout, &resources).unwrap();
 }
 
@@ -114,9 +114,9 @@ fn set_of_another_layout_is_refused(device: &Arc<Device>) {
 }
 
 /// A shader of the program.
-fn cell_range() -> Shader {
+fn cell_range() -> ShaderModule {
     let shader = glsl::Shader::new("structure/cell_range.comp", []);
-    Shader::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
+    ShaderModule::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
 }
 
 fn stages_that_contradict_each_other_are_refused(device: &Arc<Device>) {

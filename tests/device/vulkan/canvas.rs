@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use depthleap::glsl;
 use depthleap::vulkan::{
-    Attachment, Blend, Buffer, BufferInfo, Commands, Dependency, DepthState, DescriptorSet, Device, Framebuffer,
-    GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, Region, RenderPass, RenderPassInfo, Resource,
-    Role, Scope, Shader, vk,
+    Attachment, Blend, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DepthState, DescriptorSet, Device,
+    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, RenderPass, RenderPassInfo, Role,
+    Scope, ShaderModule, vk,
 };
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, run, uploaded, words};
@@ -124,7 +124,7 @@ impl Canvas {
         let from = uploaded(device, "texels", bytemuck::cast_slice(values));
         run(device, "fill", |commands| {
             commands.image_barrier(image, attached(), COPY_WRITE, vk::ImageLayout::UNDEFINED, TO);
-            commands.copy_buffer_to_image(&from, image, Region::whole(image));
+            commands.copy_buffer_to_image(&from, image, CopyRegion::whole(image));
             commands.image_barrier(image, COPY_WRITE, attached(), TO, layout);
         });
     }
@@ -132,8 +132,8 @@ impl Canvas {
     pub fn pipeline_of(
         &self,
         device: &Arc<Device>,
-        vertex: &Shader,
-        fragment: &Shader,
+        vertex: &ShaderModule,
+        fragment: &ShaderModule,
     ) -> depthleap::Result<GraphicsPipeline> {
         self.with_state(device, vertex, Some(fragment), DepthState::OFF, Blend::Replace)
     }
@@ -141,8 +141,8 @@ impl Canvas {
     fn with_state(
         &self,
         device: &Arc<Device>,
-        vertex: &Shader,
-        fragment: Option<&Shader>,
+        vertex: &ShaderModule,
+        fragment: Option<&ShaderModule>,
         depth: DepthState,
         blend: Blend,
     ) -> depthleap::Result<GraphicsPipeline> {
@@ -198,7 +198,7 @@ impl Canvas {
         Stroke { color, depth, area }: Stroke,
         around: impl FnOnce(&mut Commands, &dyn Fn(&mut Commands)),
     ) {
-        let before = [("before", Resource::Input(&self.color))];
+        let before = [("before", Bound::Input(&self.color))];
         let set = DescriptorSet::new(device, "what was there", &pipeline.layout, &before).unwrap();
         commands.begin_render_pass(&self.pass, &self.framebuffer, self.area(), &[]);
         commands.bind_graphics(pipeline, &set);
@@ -223,7 +223,7 @@ impl Canvas {
         let to = buffer(device, "texels", image.bytes(), Place::Readback);
         run(device, "read", |commands| {
             commands.image_barrier(image, attached(), COPY_READ, layout, FROM);
-            commands.copy_image_to_buffer(image, &to, Region::whole(image));
+            commands.copy_image_to_buffer(image, &to, CopyRegion::whole(image));
             commands.image_barrier(image, COPY_READ, attached(), FROM, layout);
         });
         words(&to.read().unwrap())
@@ -243,7 +243,7 @@ pub fn rectangle([x, y]: [i32; 2], [width, height]: [u32; 2]) -> vk::Rect2D {
 }
 
 /// The program's own vertex shader.
-fn box_vertex() -> Shader {
+fn box_vertex() -> ShaderModule {
     let shader = glsl::Shader::new("box.vert", []);
-    Shader::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
+    ShaderModule::new(shader.file, &glsl::module(&shader).unwrap()).unwrap()
 }

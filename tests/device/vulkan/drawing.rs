@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use depthleap::vulkan::{
-    Blend, Buffer, BufferInfo, DepthState, Device, Framebuffer, Kind, Place, QueryPool, RenderPass, Role, vk,
+    Blend, Buffer, BufferInfo, DepthState, Device, Framebuffer, Place, QueryKind, QueryPool, RenderPass, Role, vk,
 };
 
 use super::canvas::{Canvas, Stroke, pass_info, reading_pass_info, rectangle};
@@ -153,7 +153,7 @@ fn viewport_depth_is_stored_to_the_bit(device: &Arc<Device>) {
 /// Fragments that pass when `strokes` are drawn, one query each.
 fn counted(device: &Arc<Device>, canvas: &Canvas, depth: DepthState, strokes: &[Stroke]) -> Vec<u64> {
     let pipeline = canvas.painter(device, depth, Blend::Replace).unwrap();
-    let pool = QueryPool::new(device, "passed", Kind::Occlusion, strokes.len() as u32).unwrap();
+    let pool = QueryPool::new(device, "passed", QueryKind::Occlusion, strokes.len() as u32).unwrap();
     run(device, "count", |commands| {
         commands.reset_queries(&pool, 0..strokes.len() as u32);
         for (i, &stroke) in strokes.iter().enumerate() {
@@ -222,7 +222,7 @@ fn depth_bounds_include_both_ends(device: &Arc<Device>) {
         let canvas = staircase(device);
         let before = canvas.depths(device);
         let pipeline = canvas.painter(device, bounded, Blend::Replace).unwrap();
-        let pool = QueryPool::new(device, "passed", Kind::Occlusion, 1).unwrap();
+        let pool = QueryPool::new(device, "passed", QueryKind::Occlusion, 1).unwrap();
         run(device, "bounded", |commands| {
             commands.reset_queries(&pool, 0..1);
             canvas.draw(device, commands, &pipeline, stroke(&canvas), |commands, draw| {
@@ -259,7 +259,7 @@ fn conditional_draw(device: &Arc<Device>) {
     let info = BufferInfo { name: "predicates".to_owned(), size: 12, usage, place: Place::Upload };
     let predicates = Buffer::new(device, info).unwrap();
     predicates.write(0, bytemuck::cast_slice(&[0_u32, 1, 256])).unwrap();
-    let pool = QueryPool::new(device, "passed", Kind::Occlusion, 3).unwrap();
+    let pool = QueryPool::new(device, "passed", QueryKind::Occlusion, 3).unwrap();
     run(device, "conditional", |commands| {
         commands.reset_queries(&pool, 0..3);
         for i in 0..3 {

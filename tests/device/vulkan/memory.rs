@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use depthleap::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place, Region, Scope, texel_bytes, vk};
+use depthleap::vulkan::{Buffer, BufferInfo, CopyRegion, Device, Image, ImageInfo, Place, Scope, texel_bytes, vk};
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, misuse, refused, run, uploaded};
 use crate::harness::{Test, tests};
@@ -101,9 +101,9 @@ fn there_and_back(device: &Arc<Device>, image: &Image, bytes: &[u8]) -> Vec<u8> 
     let to = buffer(device, "to", image.bytes(), Place::Readback);
     run(device, "there and back", |commands| {
         commands.image_barrier(image, Scope::NONE, COPY_WRITE, vk::ImageLayout::UNDEFINED, TO);
-        commands.copy_buffer_to_image(&from, image, Region::whole(image));
+        commands.copy_buffer_to_image(&from, image, CopyRegion::whole(image));
         commands.image_barrier(image, COPY_WRITE, COPY_READ, TO, FROM);
-        commands.copy_image_to_buffer(image, &to, Region::whole(image));
+        commands.copy_image_to_buffer(image, &to, CopyRegion::whole(image));
     });
     to.read().unwrap()
 }
@@ -127,7 +127,7 @@ fn image_takes_a_region(device: &Arc<Device>) {
     let image = new_image(device, [5, 3, 1], vk::Format::R8_UNORM, copied()).unwrap();
     let square = uploaded(device, "square", &[9, 9, 9, 9, 1, 2, 3, 4]);
     let to = buffer(device, "to", 15, Place::Readback);
-    let part = Region { buffer_offset: 4, image_offset: [3, 1, 0], extent: [2, 2, 1], row: 0 };
+    let part = CopyRegion { buffer_offset: 4, image_offset: [3, 1, 0], extent: [2, 2, 1], row: 0 };
     run(device, "region", |commands| {
         let clear = Scope::new(vk::PipelineStageFlags2::CLEAR, vk::AccessFlags2::TRANSFER_WRITE);
         commands.image_barrier(&image, Scope::NONE, clear, vk::ImageLayout::UNDEFINED, TO);
@@ -135,7 +135,7 @@ fn image_takes_a_region(device: &Arc<Device>) {
         commands.image_barrier(&image, clear, COPY_WRITE, TO, TO);
         commands.copy_buffer_to_image(&square, &image, part);
         commands.image_barrier(&image, COPY_WRITE, COPY_READ, TO, FROM);
-        commands.copy_image_to_buffer(&image, &to, Region::whole(&image));
+        commands.copy_image_to_buffer(&image, &to, CopyRegion::whole(&image));
     });
     assert_eq!(to.read().unwrap(), [0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 3, 4]);
 }
@@ -178,7 +178,7 @@ fn region_outside_is_refused(device: &Arc<Device>) {
     let image = new_image(device, [5, 3, 1], vk::Format::R16_UNORM, copied()).unwrap();
     let texels = uploaded(device, "texels", &[0; 30]);
     let copy = |image_offset, extent, buffer_offset| {
-        let region = Region { buffer_offset, image_offset, extent, row: 0 };
+        let region = CopyRegion { buffer_offset, image_offset, extent, row: 0 };
         misuse(device, |commands| commands.copy_buffer_to_image(&texels, &image, region))
     };
     refused(copy([1, 0, 0], [5, 3, 1], 0), &["wanted", "of [5, 3, 1] texels"]);

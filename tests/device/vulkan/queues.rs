@@ -10,8 +10,8 @@ use depthleap::shared::Slice;
 use depthleap::structure::grid::Grid;
 use depthleap::structure::ranges;
 use depthleap::vulkan::{
-    Buffer, Commands, ComputePipeline, DescriptorSet, Device, Image, ImageInfo, Place, Queue, Recorded, Region,
-    Resource, Sampler, Scope, Shader, vk,
+    Bound, Buffer, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place, Queue,
+    Recorded, Sampler, Scope, ShaderModule, vk,
 };
 
 use super::kit::{COMPUTE, COPY_READ, COPY_WRITE, buffer, uploaded, words};
@@ -60,7 +60,7 @@ impl Counter {
         let numbers: Vec<u32> = (0..COUNT as u32).collect();
         let numbers = uploaded(device, "numbers", bytemuck::cast_slice(&numbers));
         let pipeline = ComputePipeline::new(device, "counter", &shader("vulkan/count.comp"), &[("FACTOR", 3)]).unwrap();
-        let resources = [("numbers", Resource::Storage(&numbers))];
+        let resources = [("numbers", Bound::Storage(&numbers))];
         let set = DescriptorSet::new(device, "set of counter", &pipeline.layout, &resources).unwrap();
         Self { numbers, pipeline, set }
     }
@@ -143,19 +143,18 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
         let ranges = buffer(device, "cell_range", bytes, Place::Device);
         let result = buffer(device, "result", bytes, Place::Readback);
         let build = glsl::Shader::new("structure/cell_range.comp", []);
-        let build = Shader::new(build.file, &glsl::module(&build).unwrap()).unwrap();
+        let build = ShaderModule::new(build.file, &glsl::module(&build).unwrap()).unwrap();
         let build = ComputePipeline::new(device, "cell_range", &build, &[]).unwrap();
         let sampler = Sampler::new(device, "nearest", false).unwrap();
         let (empty, to) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-        let resources =
-            [("volume", Resource::Sampled(&volume, &sampler, read)), ("cell_range", Resource::Storage(&ranges))];
+        let resources = [("volume", Bound::Sampled(&volume, &sampler, read)), ("cell_range", Bound::Storage(&ranges))];
         let set = DescriptorSet::new(device, "cell_range", &build.layout, &resources).unwrap();
 
         let texels = uploaded(device, "texels", bytemuck::cast_slice(&field.values));
         let mut give = Commands::begin(device, graphics, "give").unwrap();
         give.image_barrier(&volume, Scope::NONE, COPY_WRITE, empty, to);
-        give.copy_buffer_to_image(&texels, &volume, Region::whole(&volume));
+        give.copy_buffer_to_image(&texels, &volume, CopyRegion::whole(&volume));
         give.image_release(&volume, COPY_WRITE, to, read, compute);
         let given = graphics.submit(&give.finish().unwrap(), &[]).unwrap();
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use depthleap::vulkan::{Commands, Device, Kind, Place, QueryPool};
+use depthleap::vulkan::{Commands, Device, Place, QueryKind, QueryPool};
 
 use super::kit::{FILL, buffer, misuse, refused, run};
 use crate::harness::{Need, Test, test, tests};
@@ -34,7 +34,7 @@ fn dispatch_beyond_the_limits_is_refused(device: &Arc<Device>) {
 }
 
 fn query_outside_the_pool_is_refused(device: &Arc<Device>) {
-    let pool = QueryPool::new(device, "three", Kind::Occlusion, 3).unwrap();
+    let pool = QueryPool::new(device, "three", QueryKind::Occlusion, 3).unwrap();
     refused(misuse(device, |commands| commands.begin_query(&pool, 3)), &["three", "queries 3..4 of 3"]);
     refused(misuse(device, |commands| commands.end_query(&pool, 7)), &["three", "queries 7..8 of 3"]);
     refused(misuse(device, |commands| commands.reset_queries(&pool, 1..4)), &["three", "queries 1..4 of 3"]);
@@ -44,7 +44,7 @@ fn query_outside_the_pool_is_refused(device: &Arc<Device>) {
 }
 
 fn pool_without_queries_is_refused(device: &Arc<Device>) {
-    refused(QueryPool::new(device, "none", Kind::Occlusion, 0), &["none", "has no queries"]);
+    refused(QueryPool::new(device, "none", QueryKind::Occlusion, 0), &["none", "has no queries"]);
 }
 
 fn first_misuse_is_the_one_reported(device: &Arc<Device>) {
@@ -58,8 +58,8 @@ fn first_misuse_is_the_one_reported(device: &Arc<Device>) {
 
 fn kinds_the_device_lacks_are_refused(device: &Arc<Device>) {
     let lacks = [
-        (Kind::Statistics, !device.info.pipeline_statistics, "pipeline statistics"),
-        (Kind::Timestamp, device.info.timestamp_valid_bits == 0, "timestamps"),
+        (QueryKind::Statistics, !device.info.pipeline_statistics, "pipeline statistics"),
+        (QueryKind::Timestamp, device.info.timestamp_valid_bits == 0, "timestamps"),
     ];
     for (kind, lacking, words) in lacks {
         let pool = QueryPool::new(device, "wanted", kind, 1);
@@ -72,7 +72,7 @@ fn kinds_the_device_lacks_are_refused(device: &Arc<Device>) {
 
 fn timestamps_never_fall(device: &Arc<Device>) {
     const COUNT: u32 = 9;
-    let pool = match QueryPool::new(device, "times", Kind::Timestamp, COUNT) {
+    let pool = match QueryPool::new(device, "times", QueryKind::Timestamp, COUNT) {
         Ok(pool) => pool,
         Err(error) => return eprintln!("not run: {error}"),
     };

@@ -4,20 +4,20 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::build::Given;
+use super::build::Bindable;
 use super::upload;
 use crate::error::{Error, Result};
-use crate::part::resource::{Facts, Kind, Resource, Texture};
+use crate::part::resource::{Facts, Resource, ResourceKind, Texture};
 use crate::scene::settings::Filter;
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 
 /// An image or a buffer.
-pub enum Made {
+pub enum DeviceObject {
     Image(Image),
     Buffer(Buffer),
 }
 
-impl Made {
+impl DeviceObject {
     pub fn image(&self) -> Option<&Image> {
         match self {
             Self::Image(image) => Some(image),
@@ -40,11 +40,11 @@ impl Made {
     }
 
     /// As a build binds it under the name of `resource`.
-    pub fn given(&self, resource: Resource) -> Given<'_> {
+    pub fn given(&self, resource: Resource) -> Bindable<'_> {
         match self {
-            Self::Image(image) => Given::Image(image),
-            Self::Buffer(buffer) if matches!(resource.of.kind, Kind::Uniform(_)) => Given::Uniform(buffer),
-            Self::Buffer(buffer) => Given::Storage(buffer),
+            Self::Image(image) => Bindable::Image(image),
+            Self::Buffer(buffer) if matches!(resource.of.kind, ResourceKind::Uniform(_)) => Bindable::Uniform(buffer),
+            Self::Buffer(buffer) => Bindable::Storage(buffer),
         }
     }
 }
@@ -53,11 +53,11 @@ impl Made {
 ///
 /// # Errors
 /// Sizes beyond the device's limits, too little memory.
-pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<Made> {
+pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<DeviceObject> {
     let bytes = || resource.bytes(facts);
     match &resource.of.kind {
-        Kind::Texture(texture) => image(device, resource, texture, facts).map(Made::Image),
-        _ => buffer(device, resource, bytes(), Place::Device).map(Made::Buffer),
+        ResourceKind::Texture(texture) => image(device, resource, texture, facts).map(DeviceObject::Image),
+        _ => buffer(device, resource, bytes(), Place::Device).map(DeviceObject::Buffer),
     }
 }
 
@@ -65,18 +65,18 @@ pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<
 ///
 /// # Errors
 /// As [`empty`], and a texture that the device cannot read or interpolate.
-pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[u8]) -> Result<Made> {
+pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[u8]) -> Result<DeviceObject> {
     match &resource.of.kind {
-        Kind::Texture(texture) => {
+        ResourceKind::Texture(texture) => {
             check_format(device, (texture.format)(facts), texture.filtered && interpolates(facts))?;
             let image = image(device, resource, texture, facts)?;
             upload::image(device, &image, bytes)?;
-            Ok(Made::Image(image))
+            Ok(DeviceObject::Image(image))
         }
         _ => {
             let buffer = buffer(device, resource, bytes.len() as u64, Place::Upload)?;
             buffer.write(0, bytes)?;
-            Ok(Made::Buffer(buffer))
+            Ok(DeviceObject::Buffer(buffer))
         }
     }
 }
@@ -88,9 +88,9 @@ fn interpolates(facts: &Facts) -> bool {
 fn buffer(device: &Arc<Device>, resource: Resource, size: u64, place: Place) -> Result<Buffer> {
     use vk::BufferUsageFlags as Flags;
     let usage = match resource.of.kind {
-        Kind::Vertices(_) => Flags::VERTEX_BUFFER,
-        Kind::Uniform(_) => Flags::UNIFORM_BUFFER,
-        Kind::Staging(_) => Flags::TRANSFER_SRC | Flags::TRANSFER_DST,
+        ResourceKind::Vertices(_) => Flags::VERTEX_BUFFER,
+        ResourceKind::Uniform(_) => Flags::UNIFORM_BUFFER,
+        ResourceKind::Staging(_) => Flags::TRANSFER_SRC | Flags::TRANSFER_DST,
         _ => Flags::STORAGE_BUFFER | Flags::TRANSFER_SRC,
     };
     Buffer::new(device, BufferInfo { name: resource.name().to_owned(), size, usage, place })
