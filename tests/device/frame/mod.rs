@@ -1,10 +1,14 @@
 //! Frames on a device: the law of skipping, equal counts, the f64 twins, the exact integral, and what a frame leaves
 //! out.
 
+mod compare;
 mod features;
 #[path = "../../plan/lacking.rs"]
 mod lacking;
 mod law;
+mod matrix;
+#[path = "../../matrix/scenes.rs"]
+mod matrix_scenes;
 mod orbit;
 mod planner;
 pub mod scenes;
@@ -14,9 +18,17 @@ mod truth;
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    [law::tests(), orbit::tests(), truth::tests(), features::tests(), planner::tests(), textures::tests()]
-        .into_iter()
-        .flatten()
-        .map(|test| test.within("frame"))
-        .collect()
+    [
+        matrix::tests(),
+        law::tests(),
+        orbit::tests(),
+        truth::tests(),
+        features::tests(),
+        planner::tests(),
+        textures::tests(),
+    ]
+    .into_iter()
+    .flatten()
+    .map(|test| test.within("frame"))
+    .collect()
 }
