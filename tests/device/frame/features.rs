@@ -94,14 +94,15 @@ fn dead_passes_are_not_run(device: &Arc<Device>) {
 
 fn ways_of_ending_agree(device: &Arc<Device>) {
     for scene in [deep(), scene("shells:32", "ramp", |s| s.sampling.samples_per_pass = 1)] {
+        let mut stages = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
+            let mut stage = Stage::new(device);
+            stage.early_end = Some(way);
+            stage
+        });
         for view in VIEWS {
             for method in ending() {
                 let scene = by(&seen(&scene, view), method);
-                let shots = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
-                    let mut stage = Stage::new(device);
-                    stage.early_end = Some(way);
-                    stage.shoot(&scene, COPY)
-                });
+                let shots = stages.each_mut().map(|stage| stage.shoot(&scene, COPY));
                 assert_eq!(differing(&shots[0].picture, &shots[1].picture), 0);
                 assert_eq!(shots[0].run.fragments, shots[1].run.fragments);
             }

@@ -88,7 +88,7 @@ pub fn lawful() -> impl Iterator<Item = &'static Method> {
     METHODS.into_iter().filter(|method| method.under_the_law())
 }
 
-/// What one scene keeps on the device for all its views and methods.
+/// What one scene keeps on the device for all its views and methods, and compiled pipelines for the next one too.
 pub struct Stage {
     device: Arc<Device>,
     structures: Structures,
@@ -108,6 +108,12 @@ impl Stage {
     pub fn new(device: &Arc<Device>) -> Self {
         let resident = Resident::new(device);
         Self { device: device.clone(), structures: Structures::default(), resident, early_end: None }
+    }
+
+    /// Makes room for another volume or transfer function; what was compiled stays.
+    pub fn clear(&mut self) {
+        self.structures = Structures::default();
+        self.resident.forget_scene();
     }
 
     /// One frame with counts.

@@ -118,6 +118,7 @@ fn extremes(voxels: &Voxels) -> [f64; 2] {
 
 fn default_is_as_precise_as_its_plan_states(device: &Arc<Device>) {
     let mut random = Random(31);
+    let mut stage = Stage::new(device);
     let mut telling = 0;
     for kind in 0..5 {
         for halvings in [1, 2, 4, 7, 9, 12, 15] {
@@ -131,7 +132,10 @@ fn default_is_as_precise_as_its_plan_states(device: &Arc<Device>) {
             (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
             for method in [method::RC.name(), method::NN_OMNI.name()] {
                 let form = forms(device, method).pop().flatten();
-                let shots = [&plain, &exact].map(|scene| Stage::new(device).shoot(&by(scene, method), form));
+                let shots = [&plain, &exact].map(|scene| {
+                    stage.clear();
+                    stage.shoot(&by(scene, method), form)
+                });
                 let (off, stated) = (largest(&shots[0], &shots[1]), shots[0].plan.pixel_error);
                 let texture = shots[0].plan.texture.expect("a texture");
                 assert!(texture.error <= plain.settings.volume.precision, "{kind}, 1/2^{halvings}: {texture:?}");
@@ -167,6 +171,7 @@ fn named_format_is_warned_of(device: &Arc<Device>) {
 
 fn empty_range_shows_x_zero(device: &Arc<Device>) {
     let value = 100.0;
+    let mut stage = Stage::new(device);
     for voxels in [Voxels::U8(each(|_| 100)), Voxels::I16(each(|i| 90 + i as i16 % 20)), Voxels::F32(each(|_| 100.0))] {
         for tf in ["surface", "haze"] {
             let textures = [VolumeTexture::Auto, VolumeTexture::Native, VolumeTexture::R16, VolumeTexture::R32f];
@@ -180,7 +185,7 @@ fn empty_range_shows_x_zero(device: &Arc<Device>) {
                 });
                 let scene = by(&scene, method);
                 let form = forms(device, method).pop().flatten();
-                let mut stage = Stage::new(device);
+                stage.clear();
                 let picture = stage.shoot(&scene, form).picture;
                 let shows = picture.iter().any(|pixel| pixel[3] > 0.0);
                 assert_eq!(shows, tf == "haze", "{tf}, {texture:?}, {}", method.name());
@@ -210,10 +215,10 @@ fn only_100(mut scene: Scene) -> Scene {
 
 fn nearest_is_that_of_the_twin(device: &Arc<Device>) {
     let scene = only_100(of(device, labels(), "ramp", |s| s.sampling.filter = Filter::Nearest));
+    let mut stage = Stage::new(device);
     for view in VIEWS {
         for method in shapes().into_iter().map(Method::name) {
             let scene = by(&seen(&scene, view), method);
-            let mut stage = Stage::new(device);
             let shot = stage.shoot(&scene, forms(device, method).pop().flatten());
             let twin = stage.twin(&scene, method::papers_form(method));
             let decided = twin.undecided.iter().filter(|undecided| !**undecided).count();
