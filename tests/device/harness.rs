@@ -5,6 +5,7 @@
 //! `VK_DRIVER_FILES` picks the driver; `tools/test` runs this program once for each driver it knows. At the end it names the
 //! tests that took most CPU time, which a busy machine troubles less than time by the clock.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
@@ -117,7 +118,11 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         }
         Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }
-    let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok())).collect();
+    let mut skipped = BTreeMap::new();
+    let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok(), &mut skipped)).collect();
+    for (missing, names) in &skipped {
+        eprintln!("SKIPPED for want of {missing}: {}", names.join(", "));
+    }
     let conclusion = libtest_mimic::run(&arguments, trials);
     say_slowest();
     if conclusion.num_ignored > 0 {
@@ -140,7 +145,8 @@ pub fn closed(device: Arc<Device>) -> Vec<String> {
     instance.messages().split_off(before)
 }
 
-fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
+/// The trial of a test; one that is skipped is named among those that lack the same.
+fn trial(test: Test, device: Option<&Arc<Device>>, skipped: &mut BTreeMap<String, Vec<String>>) -> Trial {
     let Test { name, needs, run } = test;
     let missing = match device {
         None => Some("a device".to_owned()),
@@ -148,7 +154,7 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
     };
     let Some(device) = device.filter(|_| missing.is_none()).cloned() else {
         let missing = missing.unwrap_or_default();
-        eprintln!("SKIPPED: {name} needs {missing}");
+        skipped.entry(missing.clone()).or_default().push(name.clone());
         return Trial::test(name, move || Err(Failed::from(format!("needs {missing}")))).with_ignored_flag(true);
     };
     Trial::test(name.clone(), move || {
@@ -191,7 +197,7 @@ fn lacks(need: &Need, device: &Device) -> Option<String> {
         Need::ComputeFamily => (device.compute.family == device.graphics.family)
             .then(|| "a device that computes on queues of another family".to_owned()),
         Need::Data(_) if std::env::var_os(LEFT_OUT).is_some() => {
-            Some(format!("a real volume, and {LEFT_OUT} leaves these to another driver"))
+            Some(format!("real volumes, which {LEFT_OUT} leaves to another driver"))
         }
         Need::Data(file) => {
             let path = data(file);

@@ -1,5 +1,5 @@
-//! Frames on a device: the law of skipping, equal counts, the f64 twins, the exact integral, and what a frame leaves
-//! out.
+//! Frames on a device: every method in every form on tiny scenes (`matrix`); the law of skipping, the f64 twins and the exact
+//! integral on larger ones; what a frame leaves out.
 
 mod compare;
 mod features;
