@@ -2,11 +2,13 @@
 //! one test at a time, any validation message fails the test that brought it. What a machine lacks (a device, a
 //! feature, `../shared/data`) makes a test *ignored*, with a line that says so: skipped is not passed.
 //!
-//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs this program once for each driver it knows.
+//! `VK_DRIVER_FILES` picks the driver; `tools/test` runs this program once for each driver it knows. At the end it names the
+//! tests that took most CPU time, which a busy machine troubles less than time by the clock.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use depthleap::vulkan::{Device, Instance, pick};
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -62,6 +64,9 @@ impl Test {
     }
 }
 
+/// Set for drivers on which real volumes show nothing that they do not show on another one, where they take minutes.
+const LEFT_OUT: &str = "DEPTHLEAP_NO_REAL_VOLUMES";
+
 /// A file of `../shared/data`, beside the checkout.
 pub fn data(file: &str) -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(file)
@@ -91,6 +96,15 @@ pub fn judged(device: &Arc<Device>, test: impl FnOnce(&Arc<Device>) -> Result<()
     }
 }
 
+/// Tests named at the end, those that took longest.
+const SLOWEST: usize = 8;
+
+/// Tests that took less are not worth a line, in seconds.
+const SLOW: f64 = 2.0;
+
+/// Seconds of CPU time that each test took.
+static TIMES: Mutex<Vec<(f64, String)>> = Mutex::new(Vec::new());
+
 /// Runs the tests.
 pub fn run(tests: Vec<Test>) -> ExitCode {
     let mut arguments = Arguments::from_args();
@@ -104,8 +118,13 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         }
         Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }
-    let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok())).collect();
+    let mut skipped = BTreeMap::new();
+    let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok(), &mut skipped)).collect();
+    for (missing, names) in &skipped {
+        eprintln!("SKIPPED for want of {missing}: {}", names.join(", "));
+    }
     let conclusion = libtest_mimic::run(&arguments, trials);
+    say_slowest();
     if conclusion.num_ignored > 0 {
         eprintln!("{} test(s) SKIPPED, for the reasons above", conclusion.num_ignored);
     }
@@ -126,7 +145,8 @@ pub fn closed(device: Arc<Device>) -> Vec<String> {
     instance.messages().split_off(before)
 }
 
-fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
+/// The trial of a test; one that is skipped is named among those that lack the same.
+fn trial(test: Test, device: Option<&Arc<Device>>, skipped: &mut BTreeMap<String, Vec<String>>) -> Trial {
     let Test { name, needs, run } = test;
     let missing = match device {
         None => Some("a device".to_owned()),
@@ -134,10 +154,37 @@ fn trial(test: Test, device: Option<&Arc<Device>>) -> Trial {
     };
     let Some(device) = device.filter(|_| missing.is_none()).cloned() else {
         let missing = missing.unwrap_or_default();
-        eprintln!("SKIPPED: {name} needs {missing}");
+        skipped.entry(missing.clone()).or_default().push(name.clone());
         return Trial::test(name, move || Err(Failed::from(format!("needs {missing}")))).with_ignored_flag(true);
     };
-    Trial::test(name, move || judged(&device, run))
+    Trial::test(name.clone(), move || {
+        let before = cpu_seconds();
+        let result = judged(&device, run);
+        let took = cpu_seconds().zip(before).map_or(0.0, |(after, before)| after - before);
+        TIMES.lock().expect("no test holds it").push((took, name));
+        result
+    })
+}
+
+fn say_slowest() {
+    let mut times = std::mem::take(&mut *TIMES.lock().expect("no test holds it"));
+    times.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let all: f64 = times.iter().map(|(seconds, _)| seconds).sum();
+    eprintln!("{all:.0} s of CPU time in tests, most of it in");
+    for (seconds, name) in times.iter().filter(|(seconds, _)| *seconds >= SLOW).take(SLOWEST) {
+        eprintln!("{seconds:6.1} s {name}");
+    }
+}
+
+/// CPU time of this process and of the programs it has started and waited for; none where the system does not say so.
+fn cpu_seconds() -> Option<f64> {
+    // What Linux counts by for every program, whatever its kernel does.
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name in brackets, which may have spaces: the 14th to 17th fields, user and system, its own and of children.
+    let (_, fields) = stat.rsplit_once(')')?;
+    let ticks = fields.split_whitespace().skip(11).take(4).map(|field| field.parse::<f64>().ok());
+    Some(ticks.sum::<Option<f64>>()? / TICKS_PER_SECOND)
 }
 
 fn lacks(need: &Need, device: &Device) -> Option<String> {
@@ -149,6 +196,9 @@ fn lacks(need: &Need, device: &Device) -> Option<String> {
         Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
         Need::ComputeFamily => (device.compute.family == device.graphics.family)
             .then(|| "a device that computes on queues of another family".to_owned()),
+        Need::Data(_) if std::env::var_os(LEFT_OUT).is_some() => {
+            Some(format!("real volumes, which {LEFT_OUT} leaves to another driver"))
+        }
         Need::Data(file) => {
             let path = data(file);
             (!path.is_file()).then(|| format!("{}, which is not there", path.display()))

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use depthleap::frame::{Resident, Structures};
-use depthleap::method;
+use depthleap::method::{self, METHODS};
+use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::resource;
@@ -17,8 +18,10 @@ use depthleap::vulkan::Device;
 use crate::frame::scenes::{VIEWS, by, seen};
 use crate::harness::{Need, Test, data, test};
 
-const METHODS: [MethodName; 4] =
-    [method::NN_OMNI.name(), method::NN_DIRECTIONAL.name(), method::NN_OPTIMAL.name(), method::NN_CONE.name()];
+/// One method for each kind of distances.
+fn methods() -> impl Iterator<Item = MethodName> {
+    METHODS.into_iter().filter(|method| method.distance().is_some() && !method.fused).map(Method::name)
+}
 
 /// Built-in volumes: sizes that fill no word, one voxel thick, longer than a distance can be, in the type's own units.
 const BUILT_IN: [(&str, &str); 8] = [
@@ -79,7 +82,7 @@ fn agree(device: &Arc<Device>, scene: &Scene) {
     let large = scene.field.dims().iter().product::<usize>() > 1 << 20;
     for cell in CELLS.into_iter().filter(|cell| !large || *cell > 1) {
         for view in [VIEWS[0], VIEWS[1], VIEWS[2]] {
-            for method in METHODS {
+            for method in methods() {
                 let mut scene = by(&seen(scene, view), method);
                 scene.settings.method.cell = cell;
                 let plan = plan(&scene, method::papers_form(method)).expect("a plan");

@@ -1,13 +1,14 @@
 //! Every shader that the program may ask for: those of the plans of all methods, forms and kinds of scenes, of the probe,
-//! and of the self-check.
+//! and of the self-check. Kinds of scenes are those of the matrix, and all that may be combined besides.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use depthleap::frame::texture_unit;
 use depthleap::glsl::Shader;
-use depthleap::method::{self, METHODS};
+use depthleap::method::METHODS;
 use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::probe::{Case, rig};
 use depthleap::read;
@@ -15,6 +16,9 @@ use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{Classification, Filter, MethodName};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
+
+#[path = "../matrix/scenes.rs"]
+mod matrix;
 
 /// What a scene may be like, apart from its method and form.
 #[derive(Clone, Copy, Debug)]
@@ -72,19 +76,24 @@ fn scene(method: MethodName, like: Like) -> Scene {
     scene
 }
 
-/// The plans of everything above, with what tells them apart.
+/// The plans of everything above and of the matrix, with what tells them apart.
 pub fn plans() -> Vec<(String, Plan)> {
     let mut plans = Vec::new();
-    for method in METHODS.map(|row| row.name()) {
-        let mut forms: Vec<Option<Form>> = method::forms(method).into_iter().map(Some).collect();
-        if forms.is_empty() {
-            forms.push(None);
+    let mut every_form = |method: &Method, scene: &Scene, like: &str| {
+        for form in matrix::forms(method) {
+            let name = format!("{} {} {like}", method.name, form.map(Form::name).unwrap_or_default());
+            plans.push((name, plan(scene, form).unwrap()));
         }
+    };
+    for method in METHODS {
         for like in likes() {
-            let scene = scene(method, like);
-            for form in &forms {
-                let name = format!("{} {} {like:?}", method.name(), form.map(Form::name).unwrap_or_default());
-                plans.push((name, plan(&scene, *form).unwrap()));
+            every_form(method, &scene(method.name(), like), &format!("{like:?}"));
+        }
+    }
+    for (name, scene) in matrix::scenes() {
+        for (view, scene) in matrix::views(&scene) {
+            for method in matrix::methods(&scene) {
+                every_form(method, &matrix::by(&scene, method), &format!("{name} {view}"));
             }
         }
     }

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Structures, Verdict};
+use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Verdict};
 use depthleap::measure::law::law_of_skipping;
 use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::method;
 use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
 use depthleap::plan;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::{Accumulate, Cull, Filter, Last, Mark, MethodName, MethodSettings, VolumeTexture};
@@ -14,12 +15,13 @@ use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, Volume};
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, checked, differing, exactly, forms, scene, seen};
+use super::scenes::{Stage, VIEWS, by, checked, differing, exactly, forms, scene, seen, shapes};
 use crate::harness::{Need, Test, open, test};
 
-/// Methods that end rays early.
-const ENDING: [MethodName; 4] =
-    [method::RC_ERT.name(), method::RC_BLOCK.name(), method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()];
+/// Methods that end rays early, of each shape one.
+fn ending() -> impl Iterator<Item = MethodName> {
+    shapes().into_iter().filter(|method| method.under_the_law()).map(Method::name)
+}
 
 const COPY: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Copy });
 
@@ -37,7 +39,6 @@ pub fn tests() -> Vec<Test> {
         test("holes_are_transparent", holes_are_transparent),
         test("omni_runs_fewer_fragments_than_blocks", omni_runs_fewer_fragments_than_blocks),
         test("fused_passes_run_fewer_fragments", fused_passes_run_fewer_fragments),
-        test("every_distance_has_its_fused_form", every_distance_has_its_fused_form),
         test("runs_are_held_against_the_law_of_skipping", runs_are_held_against_the_law_of_skipping),
     ]
 }
@@ -78,7 +79,7 @@ fn deep() -> Scene {
 }
 
 fn dead_passes_are_not_run(device: &Arc<Device>) {
-    for method in ENDING {
+    for method in ending() {
         let shot = Stage::new(device).shoot(&by(&deep(), method), COPY);
         let counts = shot.run.fragments.expect("counts");
         // Opacity 0.5 a sample: above 0.95 after five samples.
@@ -93,14 +94,15 @@ fn dead_passes_are_not_run(device: &Arc<Device>) {
 
 fn ways_of_ending_agree(device: &Arc<Device>) {
     for scene in [deep(), scene("shells:32", "ramp", |s| s.sampling.samples_per_pass = 1)] {
+        let mut stages = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
+            let mut stage = Stage::new(device);
+            stage.early_end = Some(way);
+            stage
+        });
         for view in VIEWS {
-            for method in ENDING {
+            for method in ending() {
                 let scene = by(&seen(&scene, view), method);
-                let shots = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
-                    let mut stage = Stage::new(device);
-                    stage.early_end = Some(way);
-                    stage.shoot(&scene, COPY)
-                });
+                let shots = stages.each_mut().map(|stage| stage.shoot(&scene, COPY));
                 assert_eq!(differing(&shots[0].picture, &shots[1].picture), 0);
                 assert_eq!(shots[0].run.fragments, shots[1].run.fragments);
             }
@@ -128,8 +130,6 @@ fn repeated_frames_are_the_same(device: &Arc<Device>) {
         both.iter().flat_map(|s| forms(device, s.settings.method.name).into_iter().map(move |f| (s, f)))
     {
         let plan = plan::plan(scene, form).expect("a plan");
-        let mut structures = Structures::default();
-        structures.prepare(scene, &plan);
         let mut resident = Resident::new(device);
         resident.prepare(scene, &plan).expect("room");
         let mut frame = GpuFrame::new(device, scene, &plan, &mut resident, None).expect("a frame");
@@ -155,8 +155,6 @@ fn looking_away_is_transparent(device: &Arc<Device>) {
 fn times_have_every_step_that_ran(device: &Arc<Device>) {
     let scene = scene("shells:32", "ramp", |_| {});
     let plan = plan::plan(&scene, COPY).expect("a plan");
-    let mut structures = Structures::default();
-    structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
     resident.prepare(&scene, &plan).expect("room");
     let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
@@ -216,7 +214,7 @@ fn holes_are_transparent(device: &Arc<Device>) {
     let mut voxels = vec![1.0f32; 9 * 9 * 9];
     voxels[4 * 81 + 4 * 9 + 4] = f32::NAN;
     let volume = Volume::new("holed", [9; 3], [1.0; 3], Voxels::F32(voxels)).expect("a volume");
-    for method in [method::RC.name()].into_iter().chain(ENDING) {
+    for method in shapes().into_iter().map(Method::name) {
         let mut scene = by(&scene("constant:9", "haze", exactly), method);
         scene.settings.sampling.last = Last::Partial;
         scene.field = Arc::new(Field::new(volume.clone(), Some([0.0, 1.0]), NanPolicy::Hole).expect("a field"));
@@ -262,16 +260,6 @@ fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
         println!("{}: {} fragments, fused {}", view.0, both(&apart), both(&fused));
         assert!(sum(&apart.main) <= sum(&fused.main), "{}", view.0);
         assert!(both(&fused) < both(&apart), "{}: {} of {}", view.0, both(&fused), both(&apart));
-    }
-}
-
-fn every_distance_has_its_fused_form(device: &Arc<Device>) {
-    let scene = seen(&scene("shells:32", "ramp", |_| {}), VIEWS[1]);
-    let mut stage = Stage::new(device);
-    let rule = stage.shoot(&by(&scene, method::RC_ERT.name()), COPY).picture;
-    for method in [method::NN_DIRECTIONAL_FUSED.name(), method::NN_OPTIMAL_FUSED.name(), method::NN_CONE_FUSED.name()] {
-        let shot = stage.shoot(&by(&scene, method), COPY);
-        assert_eq!(differing(&shot.picture, &rule), 0, "{}", method.name());
     }
 }
 

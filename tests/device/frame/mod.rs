@@ -1,10 +1,14 @@
-//! Frames on a device: the law of skipping, equal counts, the f64 twins, the exact integral, and what a frame leaves
-//! out.
+//! Frames on a device: every method in every form on tiny scenes (`matrix`); the law of skipping, the f64 twins and the exact
+//! integral on larger ones; what a frame leaves out.
 
+mod compare;
 mod features;
 #[path = "../../plan/lacking.rs"]
 mod lacking;
 mod law;
+mod matrix;
+#[path = "../../matrix/scenes.rs"]
+mod matrix_scenes;
 mod orbit;
 mod planner;
 mod recorded;
@@ -16,6 +20,7 @@ use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
     [
+        matrix::tests(),
         law::tests(),
         orbit::tests(),
         truth::tests(),

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use depthleap::experiment::orbit as around;
 use depthleap::measure::runner::{Checked, Runner};
-use depthleap::method;
-use depthleap::scene::settings::{MethodName, MethodSettings};
+use depthleap::method::{self, METHODS};
+use depthleap::part::rows::Method;
+use depthleap::scene::settings::{Distance, MethodSettings};
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 use glam::DVec3;
@@ -45,17 +46,10 @@ const VOLUMES: [(&str, &str, u32); 20] = [
 /// Fused forms, which read the same structures, are run in every so many views.
 const FUSED: usize = 4;
 
-/// From the loosest to the tightest, and the fused ones.
-const METHODS: [MethodName; 8] = [
-    method::NN_OMNI.name(),
-    method::NN_CONE.name(),
-    method::NN_DIRECTIONAL.name(),
-    method::NN_OPTIMAL.name(),
-    method::NN_OMNI_FUSED.name(),
-    method::NN_CONE_FUSED.name(),
-    method::NN_DIRECTIONAL_FUSED.name(),
-    method::NN_OPTIMAL_FUSED.name(),
-];
+/// Methods that read distances, with the kind.
+fn methods() -> impl Iterator<Item = (&'static Method, Distance)> {
+    METHODS.into_iter().filter_map(|method| method.distance().map(|distance| (method, distance)))
+}
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
@@ -91,18 +85,19 @@ fn orbit(device: &Arc<Device>, scene: &Scene) {
         let sum = |counts: &[u64]| counts.iter().sum::<u64>();
         let ert_main = sum(&rule.run.fragments.as_ref().expect("counts").main);
         let mut main = Vec::new();
-        for method in METHODS
-            .into_iter()
-            .filter(|method| !method::find(*method).is_some_and(|row| row.fused) || view % FUSED == 0)
-        {
+        for (method, distance) in methods().filter(|(method, _)| !method.fused || view % FUSED == 0) {
             // The last form is one that every driver has and gets right.
-            let form = forms(device, method).into_iter().last().flatten();
-            let shot = stage.shoot(&by(&scene, method), form);
+            let form = forms(device, method.name()).pop().flatten();
+            let shot = stage.shoot(&by(&scene, method.name()), form);
             let differs = differing(&shot.picture, &rule.picture);
-            assert_eq!(differs, 0, "{}, {degrees} degrees: {differs} pixels are not those of rc-ert", method.name());
-            main.push(sum(&shot.run.fragments.expect("counts").main));
+            assert_eq!(differs, 0, "{}, {degrees} degrees: {differs} pixels are not those of rc-ert", method.name);
+            if !method.fused {
+                main.push((distance, sum(&shot.run.fragments.expect("counts").main)));
+            }
         }
-        let [omni, cone, directional, optimal, ..] = main[..] else { unreachable!("four methods at least") };
+        let [omni, cone, directional, optimal] =
+            [Distance::Omni, Distance::Cone, Distance::Directional, Distance::Optimal]
+                .map(|kind| main.iter().find(|(distance, _)| *distance == kind).expect("a method of each kind").1);
         let order = format!(
             "{degrees} degrees: ideal {} optimal {optimal} directional {directional} cone {cone} omni {omni} rc-ert {ert_main}",
             twin.ideal

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use depthleap::frame::{GpuFrame, Measure, Resident, Structures};
+use depthleap::frame::{GpuFrame, Measure, Resident};
 use depthleap::part::form::Form;
 use depthleap::plan;
 use depthleap::read;
@@ -27,8 +27,6 @@ fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool)
     let mut scene = scene.clone();
     scene.settings.method.planner = planner;
     let plan = plan::plan(&scene, form).expect("a plan");
-    let mut structures = Structures::default();
-    structures.prepare(&scene, &plan);
     let mut resident = Resident::new(device);
     resident.prepare(&scene, &plan).expect("room");
     let mut gpu = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");

@@ -5,13 +5,16 @@ use std::sync::{Arc, OnceLock};
 use depthleap::frame::{
     CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, cpu, self_check,
 };
-use depthleap::method;
+use depthleap::method::{self, METHODS};
 use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
 use depthleap::plan::{self, Choice, Plan};
 use depthleap::read;
 use depthleap::scene::settings::{Cull, Filter, MethodName, Settings, VolumeTexture};
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
+
+use super::matrix_scenes;
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
 pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -62,14 +65,30 @@ pub fn by(scene: &Scene, method: MethodName) -> Scene {
 
 /// Forms of a method that the device has the features for.
 pub fn forms(device: &Device, method: MethodName) -> Vec<Option<Form>> {
-    let all = method::forms(method);
-    if all.is_empty() {
-        return vec![None];
-    }
-    all.into_iter().filter(|f| f.cull != Cull::Bounds || device.info.depth_bounds).map(Some).collect()
+    let has = |form: &Option<Form>| device.info.depth_bounds || form.is_none_or(|form| form.cull != Cull::Bounds);
+    let mut forms = method::find(method).map_or_else(Vec::new, matrix_scenes::forms);
+    forms.retain(has);
+    forms
 }
 
-/// What one scene keeps on the device for all its views and methods.
+/// Methods of a device, the first of those that differ in no more than the distances they read.
+pub fn shapes() -> Vec<&'static Method> {
+    let shape = |method: &Method| (method.ends_rays, method.skips_blocks(), method.marks_sections(), method.fused);
+    let mut shapes: Vec<&Method> = Vec::new();
+    for method in METHODS.into_iter().filter(|method| method.on_device) {
+        if shapes.iter().all(|one| shape(one) != shape(method)) {
+            shapes.push(method);
+        }
+    }
+    shapes
+}
+
+/// Methods whose pictures are that of `rc-ert`, bit for bit.
+pub fn lawful() -> impl Iterator<Item = &'static Method> {
+    METHODS.into_iter().filter(|method| method.under_the_law())
+}
+
+/// What one scene keeps on the device for all its views and methods, and compiled pipelines for the next one too.
 pub struct Stage {
     device: Arc<Device>,
     structures: Structures,
@@ -89,6 +108,12 @@ impl Stage {
     pub fn new(device: &Arc<Device>) -> Self {
         let resident = Resident::new(device);
         Self { device: device.clone(), structures: Structures::default(), resident, early_end: None }
+    }
+
+    /// Makes room for another volume or transfer function; what was compiled stays.
+    pub fn clear(&mut self) {
+        self.structures = Structures::default();
+        self.resident.forget_scene();
     }
 
     /// One frame with counts.

@@ -3,17 +3,17 @@
 
 use std::sync::Arc;
 
-use depthleap::method;
+use depthleap::method::{self, METHODS};
 use depthleap::part::rows::Method;
 use depthleap::plan;
 use depthleap::read;
 use depthleap::scene::range::RangeEnd::{Percentile, Value};
-use depthleap::scene::settings::{Component, Distance, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::scene::settings::{Component, Filter, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TransferFunction, Volume, field::NanPolicy, transfer::Knot};
 use depthleap::vulkan::Device;
 
-use super::scenes::{Shot, Stage, VIEWS, by, checked, differing, forms, scene, seen};
+use super::scenes::{Shot, Stage, VIEWS, by, checked, differing, forms, lawful, scene, seen, shapes};
 use crate::formulas::Random;
 use crate::harness::{Test, test};
 
@@ -118,6 +118,7 @@ fn extremes(voxels: &Voxels) -> [f64; 2] {
 
 fn default_is_as_precise_as_its_plan_states(device: &Arc<Device>) {
     let mut random = Random(31);
+    let mut stage = Stage::new(device);
     let mut telling = 0;
     for kind in 0..5 {
         for halvings in [1, 2, 4, 7, 9, 12, 15] {
@@ -131,7 +132,10 @@ fn default_is_as_precise_as_its_plan_states(device: &Arc<Device>) {
             (exact.settings.sampling.filter, exact.settings.volume.texture) = (Filter::Exact, VolumeTexture::R32f);
             for method in [method::RC.name(), method::NN_OMNI.name()] {
                 let form = forms(device, method).pop().flatten();
-                let shots = [&plain, &exact].map(|scene| Stage::new(device).shoot(&by(scene, method), form));
+                let shots = [&plain, &exact].map(|scene| {
+                    stage.clear();
+                    stage.shoot(&by(scene, method), form)
+                });
                 let (off, stated) = (largest(&shots[0], &shots[1]), shots[0].plan.pixel_error);
                 let texture = shots[0].plan.texture.expect("a texture");
                 assert!(texture.error <= plain.settings.volume.precision, "{kind}, 1/2^{halvings}: {texture:?}");
@@ -167,18 +171,21 @@ fn named_format_is_warned_of(device: &Arc<Device>) {
 
 fn empty_range_shows_x_zero(device: &Arc<Device>) {
     let value = 100.0;
+    let mut stage = Stage::new(device);
     for voxels in [Voxels::U8(each(|_| 100)), Voxels::I16(each(|i| 90 + i as i16 % 20)), Voxels::F32(each(|_| 100.0))] {
         for tf in ["surface", "haze"] {
             let textures = [VolumeTexture::Auto, VolumeTexture::Native, VolumeTexture::R16, VolumeTexture::R32f];
             let mut first: Option<Vec<[f32; 4]>> = None;
-            for (texture, method) in textures.into_iter().flat_map(|t| METHODS.map(|method| (t, method))) {
+            for (texture, method) in
+                textures.into_iter().flat_map(|t| shapes().into_iter().map(move |method| (t, method.name())))
+            {
                 let scene = of(device, voxels.clone(), tf, |s| {
                     (s.volume.range, s.volume.texture) = (Some([value, value].map(Value)), texture);
                     s.sampling.termination = 1.0;
                 });
                 let scene = by(&scene, method);
                 let form = forms(device, method).pop().flatten();
-                let mut stage = Stage::new(device);
+                stage.clear();
                 let picture = stage.shoot(&scene, form).picture;
                 let shows = picture.iter().any(|pixel| pixel[3] > 0.0);
                 assert_eq!(shows, tf == "haze", "{tf}, {texture:?}, {}", method.name());
@@ -188,8 +195,6 @@ fn empty_range_shows_x_zero(device: &Arc<Device>) {
         }
     }
 }
-
-const METHODS: [MethodName; 3] = [method::RC.name(), method::RC_BLOCK.name(), method::NN_OMNI.name()];
 
 /// Labels in lumps, of which the middle one is rare.
 fn labels() -> Voxels {
@@ -210,10 +215,10 @@ fn only_100(mut scene: Scene) -> Scene {
 
 fn nearest_is_that_of_the_twin(device: &Arc<Device>) {
     let scene = only_100(of(device, labels(), "ramp", |s| s.sampling.filter = Filter::Nearest));
+    let mut stage = Stage::new(device);
     for view in VIEWS {
-        for method in METHODS {
+        for method in shapes().into_iter().map(Method::name) {
             let scene = by(&seen(&scene, view), method);
-            let mut stage = Stage::new(device);
             let shot = stage.shoot(&scene, forms(device, method).pop().flatten());
             let twin = stage.twin(&scene, method::papers_form(method));
             let decided = twin.undecided.iter().filter(|undecided| !**undecided).count();
@@ -228,14 +233,14 @@ fn nearest_is_that_of_the_twin(device: &Arc<Device>) {
 
 fn nothing_between_labels_shows(device: &Arc<Device>) {
     let far = || Voxels::U8(each(|i| if i % 5 < 2 { 200 } else { 0 }));
-    for method in [method::RC.name(), method::RC_ERT.name()].into_iter().chain(SKIPPING) {
+    for method in METHODS.into_iter().filter(|method| method.on_device) {
         let scene = only_100(of(device, far(), "ramp", |s| s.sampling.filter = Filter::Nearest));
-        let scene = by(&scene, method);
-        let shot = Stage::new(device).shoot(&scene, forms(device, method).pop().flatten());
-        assert!(shot.picture.iter().all(|pixel| *pixel == [0.0; 4]), "{}", method.name());
-        if method::find(method).and_then(Method::distance).is_some() {
+        let scene = by(&scene, method.name());
+        let shot = Stage::new(device).shoot(&scene, forms(device, method.name()).pop().flatten());
+        assert!(shot.picture.iter().all(|pixel| *pixel == [0.0; 4]), "{}", method.name);
+        if method.distance().is_some() {
             let main: u64 = shot.run.fragments.expect("counts").main.iter().sum();
-            assert_eq!(main, 0, "{} runs main fragments for nothing", method.name());
+            assert_eq!(main, 0, "{} runs main fragments for nothing", method.name);
         }
     }
 }
@@ -263,15 +268,6 @@ fn every_label_is_told_from_its_neighbours(device: &Arc<Device>) {
         }
     }
 }
-
-const SKIPPING: [MethodName; 6] = [
-    method::RC_BLOCK.name(),
-    method::NN_OMNI.name(),
-    method::NN_OMNI_FUSED.name(),
-    method::NN_DIRECTIONAL.name(),
-    method::NN_CONE.name(),
-    method::NN_OPTIMAL_FUSED.name(),
-];
 
 /// A scene to be made on a device, by name.
 type Lawful = (&'static str, fn(&Arc<Device>) -> Scene);
@@ -330,27 +326,15 @@ fn with_no_data() -> Voxels {
     Voxels::I16(values.iter().enumerate().map(|(i, v)| if i % 37 == 5 { -9999 } else { i16::from(*v) }).collect())
 }
 
-/// Every method and form from two sides against `rc-ert`, bit for bit.
+/// Every method from two sides against `rc-ert`, bit for bit, in the form that every device has.
 fn law(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     for view in [VIEWS[1], VIEWS[2]] {
         let scene = seen(scene, view);
         let rule = stage.shoot(&by(&scene, method::RC_ERT.name()), method::papers_form(method::RC_ERT.name()));
-        for method in SKIPPING {
-            let all = forms(device, method);
-            let some = if method::find(method).and_then(Method::distance) == Some(Distance::Omni) {
-                &all[..]
-            } else {
-                &all[all.len() - 1..]
-            };
-            for &form in some {
-                let name = format!("{}, {}, {}", method.name(), form.map_or_else(String::new, |f| f.name()), view.0);
-                if !super::law::trusted(device, method, form) {
-                    continue;
-                }
-                let shot = stage.shoot(&by(&scene, method), form);
-                assert_eq!(differing(&shot.picture, &rule.picture), 0, "{name}");
-            }
+        for method in lawful().map(Method::name) {
+            let shot = stage.shoot(&by(&scene, method), forms(device, method).pop().flatten());
+            assert_eq!(differing(&shot.picture, &rule.picture), 0, "{}, {}", method.name(), view.0);
         }
     }
 }

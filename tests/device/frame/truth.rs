@@ -2,18 +2,17 @@
 
 use std::sync::Arc;
 
-use depthleap::frame::CpuFrame;
 use depthleap::method;
+use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Classification, Last, MethodName, Offset, Settings};
+use depthleap::scene::settings::{Classification, Last, Offset, Settings};
 use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen};
+use super::compare::{SAME_SUM, difference, held};
+use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen, shapes};
 use crate::harness::{Need, Test, test};
 
-/// Largest difference between a frame in f32 and the same in f64: some hundred rounded samples.
-const SAME_SUM: f64 = 2e-5;
 /// Share of pixels in which f32 may not be able to tell on which side of a jump or an end a sample lies. Those on the
 /// outline of the box, which are the rasteriser's to decide, are counted by themselves: their share falls with the
 /// size of the picture, and these are small.
@@ -32,14 +31,6 @@ const SCENES: [(&str, &str); 12] = [
     ("aneurism.nrrd", "ramp"),
     ("mri_head.nrrd", "ramp"),
     ("ct_vismale.nrrd", "surface"),
-];
-
-const METHODS: [MethodName; 5] = [
-    method::RC.name(),
-    method::RC_ERT.name(),
-    method::RC_BLOCK.name(),
-    method::NN_OMNI.name(),
-    method::NN_OMNI_FUSED.name(),
 ];
 
 pub fn tests() -> Vec<Test> {
@@ -82,12 +73,12 @@ pub fn tests() -> Vec<Test> {
     tests
 }
 
-/// All methods, all views: counts and picture are those of the twins.
+/// Every shape of a method, all views: counts and picture are those of the twins.
 fn twin(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     let (mut largest, mut open, mut outline, mut pixels) = (0.0f64, 0, 0, 0);
     for view in VIEWS {
-        for method in METHODS {
+        for method in shapes().into_iter().map(Method::name) {
             let scene = by(&seen(scene, view), method);
             // The last form of each method is the one every device has.
             let form = forms(device, method).pop().flatten();
@@ -97,21 +88,7 @@ fn twin(device: &Arc<Device>, scene: &Scene) {
             let undecided = twin.undecided.iter().filter(|u| **u).count();
             (open, outline) = (open + undecided as u64 - twin.outline, outline + twin.outline);
             pixels += twin.undecided.len() as u64;
-            largest = largest.max(difference(&shot.picture, &twin).unwrap_or_else(|e| panic!("{name}: {e}")));
-
-            let counts = shot.run.fragments.expect("counts");
-            for (kind, found, rule) in [
-                ("main", &counts.main, &twin.counts.main),
-                ("intermediate", &counts.intermediate, &twin.counts.intermediate),
-            ] {
-                for (pass, (found, rule)) in found.iter().zip(rule).enumerate() {
-                    let off = found.abs_diff(*rule);
-                    assert!(
-                        off <= undecided as u64,
-                        "{name}: {kind} pass {pass} has {found} fragments, its twin {rule}, {undecided} are undecided"
-                    );
-                }
-            }
+            largest = largest.max(held(&shot, &twin, 0.0).unwrap_or_else(|e| panic!("{name}: {e}")));
         }
     }
     println!("largest difference {largest:.1e}, {open} of {pixels} pixels undecided, and {outline} on the outline");
@@ -126,27 +103,13 @@ fn full_size(device: &Arc<Device>) {
     let form = forms(device, method::RC_ERT.name()).pop().flatten();
     let mut stage = Stage::new(device);
     let (shot, twin) = (stage.shoot(&scene, form), stage.twin(&scene, method::papers_form(method::RC_ERT.name())));
-    let largest = difference(&shot.picture, &twin).unwrap_or_else(|e| panic!("{e}"));
+    let largest = difference(&shot.picture, &twin, SAME_SUM).unwrap_or_else(|e| panic!("{e}"));
     let open = twin.undecided.iter().filter(|u| **u).count();
     println!(
         "largest difference {largest:.1e}, {open} of 250000 pixels undecided, {} of them on the outline",
         twin.outline
     );
     assert!((open as f64) < UNDECIDED * 250_000.0, "{open} pixels are undecided");
-}
-
-/// The largest difference over decided pixels, or where it is more than rounding explains.
-fn difference(picture: &[[f32; 4]], twin: &CpuFrame) -> Result<f64, String> {
-    let mut largest = 0.0f64;
-    let mut worst = String::new();
-    for (i, (found, rule)) in picture.iter().zip(&twin.pixels).enumerate().filter(|(i, _)| !twin.undecided[*i]) {
-        let off = (0..4).map(|c| (f64::from(found[c]) - rule[c]).abs()).fold(0.0, f64::max);
-        if off > largest || off.is_nan() {
-            largest = off;
-            worst = format!("pixel {i} is {found:?}, its twin {rule:?}");
-        }
-    }
-    if largest <= SAME_SUM { Ok(largest) } else { Err(format!("{largest:e} apart: {worst}")) }
 }
 
 fn would_see_a_shifted_sample(device: &Arc<Device>) {
@@ -156,8 +119,8 @@ fn would_see_a_shifted_sample(device: &Arc<Device>) {
     shifted.settings.sampling.step += 1e-4;
     let mut stage = Stage::new(device);
     let picture = stage.shoot(&scene, None).picture;
-    assert!(difference(&picture, &stage.twin(&scene, None)).is_ok());
-    assert!(difference(&picture, &stage.twin(&shifted, None)).is_err());
+    assert!(difference(&picture, &stage.twin(&scene, None), SAME_SUM).is_ok());
+    assert!(difference(&picture, &stage.twin(&shifted, None), SAME_SUM).is_err());
 }
 
 /// `haze` is 0.01 a voxel everywhere; with a last sample for what is left of the ray, opacity is 1 - 0.99^length.
@@ -231,7 +194,7 @@ fn integral_error(device: &Arc<Device>, scene: &Scene) -> f64 {
 
 /// An eighth of a voxel: second order leaves 1/64 of what a whole voxel does (1e-2 here), rounding is far below.
 fn every_method_is_near_the_integral(device: &Arc<Device>) {
-    for method in METHODS {
+    for method in shapes().into_iter().map(Method::name) {
         let scene = scene("shells:24", "ramp", |s| smooth(s, 0.125));
         let error = integral_error(device, &by(&scene, method));
         println!("{}: {error:.1e}", method.name());

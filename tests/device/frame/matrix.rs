@@ -1,0 +1,178 @@
+//! The matrix: every method in every form on every scene of `tests/matrix/scenes.rs`. Whatever is in its tables is in it:
+//! nothing here names a method, a form or a feature.
+//!
+//! Of each frame: it runs without a message of the validation layer (the harness sees to that); it is its f64 twin's;
+//! methods that end rays have one picture to the bit, those that end none have another; the fragments of a method are the
+//! same in every form, and all of it in every format of the depth buffer.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
+use depthleap::resource;
+use depthleap::scene::Scene;
+use depthleap::scene::settings::{DepthFormat, Filter, Formats};
+use depthleap::vulkan::{Device, vk};
+
+use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
+use super::law::trusted;
+use super::matrix_scenes;
+use super::scenes::{Shot, Stage, checked, forms};
+use crate::harness::{Test, test};
+
+/// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
+const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthFormat::D16];
+
+/// Pixels of a frame that f32 may leave undecided: with so few of them, that counts may be off by one for each hides nothing.
+const UNDECIDED: u64 = 4;
+
+/// Pixels on the outline of the box that the rasteriser may leave undecided: none from within, from outside some fifteen on
+/// a raster of 1/16 pixel.
+const OUTLINE: u64 = 24;
+
+pub fn tests() -> Vec<Test> {
+    let mut tests = Vec::new();
+    for (name, scene) in matrix_scenes::scenes() {
+        tests.push(test(&format!("matrix::{name}"), move |device| every_method(device, &scene)));
+    }
+    tests.push(test("matrix::would_see_a_changed_pixel_and_a_changed_count", changes_are_seen));
+    tests
+}
+
+/// Every method on a scene, from outside and from within.
+fn every_method(device: &Arc<Device>, scene: &Scene) {
+    let mut runs = Runs { device, stage: Stage::new(device), frames: 0, largest: 0.0, undecided: 0 };
+    let mut scene = scene.clone();
+    scene.unit = checked(device).unit;
+    for (i, (view, scene)) in matrix_scenes::views(&scene).into_iter().enumerate() {
+        // What a format of the depth buffer may get wrong, it gets wrong in any view.
+        let depths = if i == 0 { depths(device, &scene) } else { vec![scene.settings.method.depth] };
+        // What has to come out, by whether rays end.
+        let mut rules = BTreeMap::new();
+        for method in matrix_scenes::methods(&scene) {
+            let rule: &Shot = rules.entry(method.ends_rays).or_insert_with(|| runs.rule(&scene, method));
+            assert!(rule.picture.iter().any(|pixel| pixel[3] > 0.0), "{view}: nothing shows");
+            let held = runs.every_form(&scene, method, &depths, rule);
+            held.unwrap_or_else(|what| panic!("{}, {view}: {what}", method.name));
+        }
+    }
+    let Runs { frames, largest, undecided, .. } = runs;
+    println!("{frames} frames, largest difference to a twin {largest:.1e}, at most {undecided} pixels undecided");
+}
+
+struct Runs<'a> {
+    device: &'a Arc<Device>,
+    stage: Stage,
+    frames: usize,
+    /// The largest difference of a picture to its twin.
+    largest: f64,
+    /// The most pixels that a twin left undecided, apart from those on the outline.
+    undecided: u64,
+}
+
+impl Runs<'_> {
+    /// The frame without skipping whose picture the method's has to be.
+    fn rule(&mut self, scene: &Scene, method: &Method) -> Shot {
+        let rule = method::without_skipping(method);
+        // The last form of each method is the one every device has.
+        let form = forms(self.device, rule.name()).pop().flatten();
+        self.stage.shoot(&matrix_scenes::by(scene, rule), form)
+    }
+
+    /// A method in all its forms, held against its twin, the rule and its first form.
+    fn every_form(
+        &mut self,
+        scene: &Scene,
+        method: &Method,
+        depths: &[DepthFormat],
+        rule: &Shot,
+    ) -> Result<(), String> {
+        let scene = matrix_scenes::by(scene, method);
+        let twin = self.stage.twin(&scene, method.papers);
+        let undecided = twin.undecided.iter().filter(|undecided| **undecided).count() as u64 - twin.outline;
+        self.undecided = self.undecided.max(undecided);
+        if undecided > UNDECIDED || twin.outline > OUTLINE {
+            return Err(format!("{undecided} pixels are undecided, and {} on the outline", twin.outline));
+        }
+        if !method.on_device {
+            return difference(&rule.picture, &twin, SAME_SUM + stated(&scene, rule)).map(drop);
+        }
+        let mut forms = forms(self.device, method.name());
+        forms.retain(|form| trusted(self.device, method.name(), *form));
+        let mut first = None;
+        for form in forms {
+            for depth in if form.is_some() { depths } else { &depths[..1] } {
+                let shot = self.stage.shoot(&with_depth(&scene, *depth), form);
+                self.frames += 1;
+                let first = first.get_or_insert_with(|| counts(&shot).clone());
+                let held = held(&shot, &twin, stated(&scene, &shot)).and_then(|largest| {
+                    same_picture(&shot.picture, &rule.picture)?;
+                    same_counts(counts(&shot), first)?;
+                    Ok(largest)
+                });
+                let named = |what| format!("{}, {}: {what}", form.map_or_else(String::new, Form::name), depth.name());
+                self.largest = self.largest.max(held.map_err(named)?);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How far the plan says that the device's texture unit may be from a twin, which interpolates in f64.
+fn stated(scene: &Scene, shot: &Shot) -> f64 {
+    if scene.settings.sampling.filter == Filter::Hardware { shot.plan.pixel_error } else { 0.0 }
+}
+
+fn with_depth(scene: &Scene, depth: DepthFormat) -> Scene {
+    let mut scene = scene.clone();
+    scene.settings.method.depth = depth;
+    scene
+}
+
+/// The formats of the depth buffer that the device has.
+fn depths(device: &Device, scene: &Scene) -> Vec<DepthFormat> {
+    let there = |depth: &DepthFormat| {
+        let formats = Formats { depth: *depth, ..scene.settings.formats() };
+        let needed = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+        device.format_supports(resource::STORED.format(formats), needed)
+    };
+    DEPTHS.into_iter().filter(there).collect()
+}
+
+/// The comparisons above see one bit of one pixel, a pixel beyond rounding, and a fragment too many.
+fn changes_are_seen(device: &Arc<Device>) {
+    let (_, scene) = matrix_scenes::scenes().swap_remove(0);
+    let method = matrix_scenes::methods(&scene).find(|method| method.looks_ahead()).expect("one that skips");
+    let scene = matrix_scenes::by(&scene, method);
+    let mut stage = Stage::new(device);
+    let shot = stage.shoot(&scene, forms(device, method.name()).pop().flatten());
+    let twin = stage.twin(&scene, method.papers);
+    let decided = twin.undecided.iter().zip(&shot.picture).position(|(u, pixel)| !u && pixel[3] > 0.1).expect("one");
+    let unchanged = |other: &Shot| {
+        [
+            held(other, &twin, 0.0).is_ok(),
+            same_picture(&other.picture, &shot.picture).is_ok(),
+            same_counts(counts(other), counts(&shot)).is_ok(),
+        ]
+    };
+    assert_eq!(unchanged(&shot), [true; 3]);
+
+    let mut bit = shot.clone();
+    bit.picture[decided][2] = f32::from_bits(bit.picture[decided][2].to_bits() ^ 1);
+    assert_eq!(unchanged(&bit), [true, false, true]);
+
+    let mut pixel = shot.clone();
+    pixel.picture[decided][3] += 1e-3;
+    assert_eq!(unchanged(&pixel), [false, false, true]);
+
+    let mut count = shot.clone();
+    let undecided = twin.undecided.iter().filter(|undecided| **undecided).count() as u64;
+    let fragments = count.run.fragments.as_mut().expect("counts");
+    fragments.main[0] += 1;
+    assert_eq!(unchanged(&count), [undecided > 0, true, false]);
+    let fragments = count.run.fragments.as_mut().expect("counts");
+    fragments.intermediate[0] += undecided + 1;
+    assert_eq!(unchanged(&count), [false, true, false]);
+}

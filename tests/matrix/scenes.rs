@@ -1,0 +1,116 @@
+//! The scenes of the matrix: tiny ones, of which each differs from the first by what a frame may have or lack.
+//!
+//! A new feature is given its scenes here, and nowhere else: a test asks that some have it and some lack it. What every
+//! scene is to be drawn with, once it is a table of the program, is a loop more in [`scenes`].
+
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
+use depthleap::read;
+use depthleap::scene::field::NanPolicy;
+use depthleap::scene::settings::{Alpha, Classification, Filter, Last, Offset, Settings, VolumeTexture};
+use depthleap::scene::{Camera, Scene};
+
+type Change = fn(&mut Settings);
+
+/// Opacity in every cell: nothing can be skipped.
+const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
+
+/// What each scene changes of the first.
+const KINDS: [(&str, Change); 21] = [
+    ("as it is", |_| {}),
+    ("no colours", |s| preset(s, "ramp")),
+    ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
+    ("no ray that ends", |s| s.sampling.termination = 1.0),
+    ("nothing to skip and no ray that ends", |s| {
+        s.transfer.points = Some(EVERYWHERE.to_vec());
+        s.sampling.termination = 1.0;
+    }),
+    // More passes than a batch of them: rays that are left are counted.
+    ("many passes", |s| s.sampling.samples_per_pass = 2),
+    ("a single pass", |s| s.sampling.samples_per_pass = 64),
+    ("more passes than samples", |s| s.sampling.passes = 9),
+    ("opacities for another step", |s| s.sampling.step = 0.7),
+    ("opacities as they stand", |s| (s.sampling.step, s.sampling.alpha) = (0.7, Alpha::Paper)),
+    ("a last sample of its own length", |s| {
+        (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
+        s.sampling.step = 1.3;
+    }),
+    ("steps classified as a whole", |s| {
+        (s.sampling.classification, s.sampling.step) = (Classification::PreIntegrated, 1.7);
+    }),
+    ("parts of steps classified as a whole", |s| {
+        (s.sampling.classification, s.sampling.last) = (Classification::PreIntegrated, Last::Partial);
+    }),
+    ("nearest voxels", |s| s.sampling.filter = Filter::Nearest),
+    // How far a texture unit is off, plans state of a picture; where a ray ends by it nobody can tell.
+    ("the texture unit", |s| {
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        s.sampling.termination = 1.0;
+    }),
+    ("holes", |s| (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole)),
+    ("extra fetches", |s| s.sampling.extra_fetches = 2),
+    ("larger cells", |s| s.method.cell = 2),
+    ("other ways to look ahead", |s| {
+        (s.method.block_first, s.method.exit_lookahead) = (true, false);
+        s.method.lookups = s.sampling.samples_per_pass;
+    }),
+    ("nothing left out", |s| s.method.planner = false),
+    ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
+];
+
+/// A value that few voxels of the volume have.
+const NO_DATA: f64 = 127.0;
+
+fn preset(settings: &mut Settings, name: &str) {
+    settings.transfer.points = None;
+    settings.transfer.preset = Some(name.to_owned());
+}
+
+/// A scene with colours, empty space, empty blocks and rays that end, interpolated as exactly as its twin is.
+fn settings(change: Change) -> Settings {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:22x18x20".to_owned());
+    settings.volume.texture = VolumeTexture::R32f;
+    settings.transfer.points =
+        Some(vec![[0.0, 0.2, 0.4, 1.0, 0.0], [0.25, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.5]]);
+    settings.image.size = [41, 31];
+    // Not along any axis, edge or diagonal.
+    settings.camera.eye = [0.8974, 0.6533, 1.2544];
+    settings.sampling.filter = Filter::Exact;
+    settings.sampling.samples_per_pass = 6;
+    settings.sampling.termination = 0.6;
+    change(&mut settings);
+    settings
+}
+
+/// Every scene of the matrix, by name.
+pub fn scenes() -> Vec<(String, Scene)> {
+    let scene = |change| read::scene(&settings(change)).expect("a sound scene");
+    KINDS.into_iter().map(|(name, change)| (name.to_owned(), scene(change))).collect()
+}
+
+/// The scene as its camera sees it, and from within.
+pub fn views(scene: &Scene) -> [(&'static str, Scene); 2] {
+    let within =
+        Camera { eye: [0.11, 0.07, -0.13].into(), target: [-0.3, 0.2, 0.4].into(), ..(&scene.settings.camera).into() };
+    [("from outside", scene.clone()), ("from within", scene.clone().seen_by(within))]
+}
+
+/// The scene by a method.
+pub fn by(scene: &Scene, method: &Method) -> Scene {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method.name();
+    scene
+}
+
+/// The methods that draw the scene.
+pub fn methods(scene: &Scene) -> impl Iterator<Item = &'static Method> {
+    method::METHODS.into_iter().filter(|method| (method.takes)(scene).is_ok())
+}
+
+/// Every form of a method; none stands for culling nothing.
+pub fn forms(method: &Method) -> Vec<Option<Form>> {
+    let forms = (method.forms)();
+    if forms.is_empty() { vec![None] } else { forms.into_iter().map(Some).collect() }
+}
