@@ -5,39 +5,44 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &str); 22] = [
+const MAY_IMPORT: [(&str, &str); 23] = [
     ("error", ""),
     ("math", ""),
     ("provenance", "error"),
     ("scene", "error math"),
     ("read", "error math scene"),
-    ("structure", "error math scene"),
+    ("projection", "error math scene"),
+    ("structure", "error math scene projection"),
     ("glsl", "error"),
-    ("vulkan", "error"),
-    ("truth", "error math scene"),
-    ("twin", "error math scene structure truth"),
-    ("shared", "error math scene structure truth"),
+    ("vulkan", "error math"),
+    ("truth", "error math scene projection"),
+    ("twin", "error math scene projection structure truth"),
+    ("shared", "error math scene projection structure truth"),
     ("probe", "error provenance glsl vulkan"),
-    ("part", "error math scene structure glsl vulkan truth twin shared"),
-    ("feature", "error math scene structure glsl vulkan truth twin shared part"),
-    ("pass", "error math scene structure glsl vulkan truth twin shared part feature"),
-    ("method", "error math scene structure glsl vulkan truth twin shared part feature pass"),
-    ("plan", "error math scene structure glsl vulkan truth twin shared part feature pass method"),
-    ("frame", "error math scene structure glsl vulkan truth twin shared part feature pass method plan probe"),
+    ("part", "error math scene projection structure glsl vulkan truth twin shared"),
+    ("feature", "error math scene projection structure glsl vulkan truth twin shared part"),
+    ("pass", "error math scene projection structure glsl vulkan truth twin shared part feature"),
+    ("method", "error math scene projection structure glsl vulkan truth twin shared part feature pass"),
+    ("plan", "error math scene projection structure glsl vulkan truth twin shared part feature pass method"),
+    (
+        "frame",
+        "error math scene projection structure glsl vulkan truth twin shared part feature pass method plan probe",
+    ),
     (
         "measure",
-        "error math scene structure glsl vulkan truth twin shared part feature pass method plan frame provenance",
+        "error math scene projection structure glsl vulkan truth twin shared part feature pass method plan frame \
+         provenance",
     ),
     ("report", "error math scene provenance measure"),
     (
         "experiment",
-        "error math scene read structure glsl vulkan truth twin shared part pass method plan frame probe provenance \
-         measure report",
+        "error math scene projection read structure glsl vulkan truth twin shared part pass method plan frame probe \
+         provenance measure report",
     ),
     (
         "cli",
-        "error math scene read structure glsl vulkan truth twin shared part pass method plan frame probe provenance \
-         measure report experiment",
+        "error math scene projection read structure glsl vulkan truth twin shared part pass method plan frame probe \
+         provenance measure report experiment",
     ),
 ];
 

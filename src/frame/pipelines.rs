@@ -21,7 +21,7 @@ pub struct PipelineKey {
     pub shader: Option<Arc<glsl::Shader>>,
     pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
-    pub blend: bool,
+    pub blend: Blend,
 }
 
 /// Made when first asked for.
@@ -89,7 +89,7 @@ impl Pipelines {
                     bounds: key.test.bounds,
                 },
                 stencil: None,
-                blend: if key.blend { Blend::Over } else { Blend::Replace },
+                blend: key.blend,
             },
         )?);
         self.pipelines.insert(key.clone(), made.clone());

@@ -221,7 +221,7 @@ impl Resident {
                 self.make(resource, scene)?;
             }
         }
-        let support = Support::of(&Texels::of(scene).transfer(&scene.transfer));
+        let support = Support::of(&Texels::of(scene).shown(scene));
         let Some(volume) = self.images.get(&Resource::Volume) else {
             return Err(Error::device(&self.device.info.name, "has no volume to build from", "report this bug"));
         };
@@ -250,7 +250,7 @@ impl Resident {
                 self.upload_buffer(resource, bytemuck::cast_slice(&rows))?;
             }
             Resource::BlockTable => {
-                let table = blocks::visibility_table(&Texels::of(scene).transfer(&scene.transfer));
+                let table = blocks::visibility_table(&Texels::of(scene).shown(scene));
                 let image = self.upload_image(resource, [256, 256, 1], vk::Format::R8_UINT, &table)?;
                 self.images.insert(resource, image);
             }

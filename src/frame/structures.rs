@@ -7,6 +7,7 @@ use cpu_time::ProcessTime;
 use super::texture::Texels;
 use crate::part::resource::Resource;
 use crate::plan::Plan;
+use crate::projection::Shown;
 use crate::scene::Scene;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
@@ -37,13 +38,12 @@ impl Structures {
         self.table = self.table(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::of(scene);
-            let transfer = texels.transfer(&scene.transfer);
-            let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
+            let build = || structure::build(&scene.field, &texels.values, &texels.shown(scene), &lookup);
             self.distances.push((lookup, timed(build, |d| d.bytes.len() as u64)));
         }
         let reads = |r: Resource| plan.steps.iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         if self.blocks.is_none() && reads(Resource::CellRange) {
-            self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
+            self.blocks = Some(timed(|| Blocks::build(&scene.field, &Shown::in_x(scene)), Blocks::bytes));
         }
     }
 

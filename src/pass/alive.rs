@@ -2,6 +2,7 @@
 
 use ash::vk;
 
+use crate::math::blend::Blend;
 use crate::part::resource::{Resource, Usage};
 use crate::part::{DepthTest, Draw, Faces, Group, Step, Work};
 
@@ -27,7 +28,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },
             shader: None,
             constants: Default::default(),
-            blend: false,
+            blend: Blend::Replace,
             twin: None,
         }),
     }
