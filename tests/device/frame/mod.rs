@@ -7,6 +7,7 @@ mod lacking;
 mod law;
 mod orbit;
 mod planner;
+mod projections;
 pub mod scenes;
 mod textures;
 mod truth;
@@ -14,9 +15,17 @@ mod truth;
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    [law::tests(), orbit::tests(), truth::tests(), features::tests(), planner::tests(), textures::tests()]
-        .into_iter()
-        .flatten()
-        .map(|test| test.within("frame"))
-        .collect()
+    [
+        law::tests(),
+        orbit::tests(),
+        truth::tests(),
+        features::tests(),
+        planner::tests(),
+        textures::tests(),
+        projections::tests(),
+    ]
+    .into_iter()
+    .flatten()
+    .map(|test| test.within("frame"))
+    .collect()
 }
