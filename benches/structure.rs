@@ -4,6 +4,7 @@
 use std::time::Duration;
 
 use cpu_time::ProcessTime;
+use depthleap::projection::Shown;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, TransferFunction, Volume};
@@ -67,9 +68,10 @@ fn main() {
     let values = Values::Unorm8(codes.into());
     for preset in ["ramp", "surface", "linear"] {
         let transfer = TransferFunction::preset(preset, 1.0).expect("a built-in").expect("a sound function");
-        let flags = interesting(&field, &values, &transfer, &grid, false);
+        let shows = Shown::from(&transfer);
+        let flags = interesting(&field, &values, &shows, &grid, false);
         let shown = flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64;
-        let find = median(|| drop(std::hint::black_box(interesting(&field, &values, &transfer, &grid, false))));
+        let find = median(|| drop(std::hint::black_box(interesting(&field, &values, &shows, &grid, false))));
         let any = median(|| drop(std::hint::black_box(omni(&grid, &flags))));
         let octants = median(|| drop(std::hint::black_box(directional(&grid, &flags))));
         let ms = |time: Duration| time.as_secs_f64() * 1e3;

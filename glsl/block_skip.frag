@@ -13,6 +13,8 @@
 #include "shared/double_float.glsl"
 #include "shared/samples.glsl"
 #include "shared/block.glsl"
+#include "shared/opacity.glsl"
+#include "shared/projection.glsl"
 
 #ifndef ENDLESS
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
@@ -80,7 +82,7 @@ void main() {
 #ifdef ENDLESS
     bool saturated = false;
 #else
-    bool saturated = texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination;
+    bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
 #endif
     if (first >= end || saturated) {
         MARK(DEAD);

@@ -2,16 +2,16 @@
 // passes into one, except for the first pass"], for rays whose stored section begins at or before k: takes the segment's
 // samples and marks where the ray goes on.
 //
-// 1. A ray whose opacity was above T before this pass is dead: it takes no sample, so that the picture is the one of
+// 1. A ray that had ended before this pass is dead: it takes no sample, so that the picture is the one of
 //    the passes apart, which test there too.
 // 2. A ray that jumped here may have landed in free space: it goes on without a sample.
 // 3. The others take M samples, and go on by what the intermediate pass k + 1 would decide at the next segment.
 //
 // RES is read and blended into at once: a fragment reads its own pixel, before its own blending, and front faces of a
-// convex box cover no pixel twice. What takes no sample blends (0, 0, 0, 0), which changes nothing.
+// convex box cover no pixel twice. What takes no sample blends what changes nothing.
 //
-// Departure: a ray is marked dead in the pass in which its opacity rises above T, where that is certain before the
-// blend unit has rounded it; the others are found at 1. in the pass that follows.
+// Departure: a ray is marked dead in the pass in which it ends (its opacity rises above T), where that is certain before
+// the blend unit has rounded it; the others are found at 1. in the pass that follows.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
@@ -29,6 +29,7 @@
 #include "shared/near_neighbor.glsl"
 #include "shared/volume.glsl"
 #include "shared/opacity.glsl"
+#include "shared/projection.glsl"
 #ifdef PREINTEGRATED
 #include "shared/preintegrated.glsl"
 #else
@@ -45,23 +46,23 @@ layout(constant_id = 10) const float BLEND_ROUNDING = 0.0;
 
 layout(location = 0) out vec4 contribution;
 
-// The opacity before this pass, and with a segment added; of no matter where no ray of the view can come above T.
+// Whether a ray goes on before this pass, and has ended with a segment added; of no matter where no ray of the view ends.
 #ifdef ENDLESS
 #define alive_before() true
 #define saturated_by(segment) false
 #else
 bool alive_before() {
-    return subpassLoad(accumulated).a <= frame.termination;
+    return !ended(subpassLoad(accumulated), 0.0);
 }
 
 bool saturated_by(vec4 segment) {
-    return composite(subpassLoad(accumulated), segment).a > frame.termination + BLEND_ROUNDING;
+    return ended(joined(subpassLoad(accumulated), segment), BLEND_ROUNDING);
 }
 #endif
 
 void main() {
     float depth = DEAD;
-    vec4 segment = vec4(0.0);
+    vec4 segment = no_sample();
     bool runs = may_run();
     if (runs) {
         if (alive_before()) {

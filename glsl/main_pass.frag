@@ -1,5 +1,5 @@
-// Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2]. M samples of the ray's segment for this pass, composited
-// front to back; the blend unit puts the segment under what the pixel has already.
+// Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2]. M samples of the ray's segment for this pass, joined
+// front to back; the blend unit joins the segment with what the pixel has already.
 //
 // Departure: a ray that has left the volume takes no samples, and the intermediate pass knows its length; KW03
 // writes opacity 1 to RES for it, which would change the picture.
@@ -13,6 +13,7 @@
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
 #include "shared/opacity.glsl"
+#include "shared/projection.glsl"
 #ifdef PREINTEGRATED
 #include "shared/preintegrated.glsl"
 #else
@@ -27,7 +28,7 @@ layout(early_fragment_tests) in;
 layout(location = 0) out vec4 accumulated;
 
 void main() {
-    vec4 segment = vec4(0.0);
+    vec4 segment = no_sample();
     bool runs = may_run();
     if (runs) {
         segment = segment_color(load_ray(), this_step.pass);

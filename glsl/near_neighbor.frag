@@ -16,6 +16,8 @@
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"
+#include "shared/opacity.glsl"
+#include "shared/projection.glsl"
 
 #ifndef ENDLESS
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
@@ -23,7 +25,7 @@ layout(set = 0, binding = 7) uniform sampler2D accumulated;
 
 float decide(Ray ray) {
 #ifndef ENDLESS
-    if (texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination) {
+    if (ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0)) {
         return DEAD;
     }
 #endif

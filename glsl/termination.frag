@@ -10,12 +10,14 @@
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
 #include "shared/samples.glsl"
+#include "shared/opacity.glsl"
+#include "shared/projection.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
 
 void main() {
     Ray ray = load_ray();
     bool gone = this_step.pass * SAMPLES_PER_PASS >= ray.samples;
-    bool saturated = texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0).a > frame.termination;
+    bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
     MARK(gone || saturated ? DEAD : 0.0);
 }

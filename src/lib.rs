@@ -4,9 +4,10 @@
 //!
 //! 1. [`scene`]: what is to be seen: volume, transfer function, camera, sampling, method. Knows no Vulkan.
 //! 2. [`plan`]: scene to a flat list of steps anyone can print, with what was left out and why.
-//! 3. [`method`] and [`feature`]: what each renderer is and what a frame may have, as rows; [`pass`]: each pass said once: its
-//!    GLSL, what it reads and draws into, its f64 twin in [`twin`]; [`mod@resource`] and [`geometry`]: what passes read, draw
-//!    into and cover pixels with; [`part`]: the types of all of these.
+//! 3. [`method`], [`feature`] and [`projection`]: what each renderer is, what a frame may have, and how samples become a
+//!    pixel, as rows; [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`twin`];
+//!    [`mod@resource`] and [`geometry`]: what passes read, draw into and cover pixels with; [`part`]: the types of all of
+//!    these.
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors of frames, one record a run.
 //! 6. [`report`]: records to tables, claims, pages and plots.
@@ -14,8 +15,8 @@
 //!
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
-//! Imports point one way: `error, math <- scene <- read, structure, truth <- twin, shared`;
-//! `error <- provenance, glsl, vulkan <- probe`; all of these `<- part <- resource <- geometry,
+//! Imports point one way: `error, math <- scene <- projection <- read, structure, truth <- twin, shared`;
+//! `error <- provenance, glsl`; `error, math <- vulkan <- probe`; all of these `<- part <- resource <- geometry,
 //! feature <- pass <- method <- plan <- frame <- measure <- report
 //! <- experiment <- cli`.
 
@@ -33,6 +34,7 @@ pub mod part;
 pub mod pass;
 pub mod plan;
 pub mod probe;
+pub mod projection;
 pub mod provenance;
 pub mod read;
 

@@ -174,7 +174,7 @@ fn a_cell_of_nearest_voxels_is_interesting_when_one_of_them_shows() {
     let texels = Texels::of(&scene);
     for cell in [1, 2, 4] {
         let grid = Grid::new(&scene.field, cell);
-        let found = cells::interesting(&scene.field, &texels.values, &texels.transfer(&scene.transfer), &grid, true);
+        let found = cells::interesting(&scene.field, &texels.values, &texels.shown(&scene), &grid, true);
         for (i, shows) in found.into_iter().enumerate() {
             let at = [i % grid.cells[0], i / grid.cells[0] % grid.cells[1], i / (grid.cells[0] * grid.cells[1])];
             let [x, y, z] =

@@ -5,43 +5,50 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &str); 24] = [
+const MAY_IMPORT: [(&str, &str); 25] = [
     ("error", ""),
     ("math", ""),
     ("provenance", "error"),
     ("scene", "error math"),
     ("read", "error math scene"),
-    ("structure", "error math scene"),
+    ("projection", "error math scene"),
+    ("structure", "error math scene projection"),
     ("glsl", "error"),
-    ("vulkan", "error"),
-    ("truth", "error math scene"),
-    ("twin", "error math scene structure truth"),
-    ("shared", "error math scene structure truth"),
+    ("vulkan", "error math"),
+    ("truth", "error math scene projection"),
+    ("twin", "error math scene projection structure truth"),
+    ("shared", "error math scene projection structure truth"),
     ("probe", "error provenance glsl vulkan"),
-    ("part", "error math scene structure glsl vulkan truth twin shared"),
-    ("resource", "error math scene structure vulkan truth shared part"),
+    ("part", "error math scene projection structure glsl vulkan truth twin shared"),
+    ("resource", "error math scene projection structure vulkan truth shared part"),
     ("geometry", "math scene part resource"),
-    ("feature", "error math scene structure glsl vulkan truth twin shared part resource"),
-    ("pass", "error math scene structure glsl vulkan truth twin shared part resource geometry feature"),
-    ("method", "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass"),
-    ("plan", "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method"),
+    ("feature", "error math scene projection structure glsl vulkan truth twin shared part resource"),
+    ("pass", "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature"),
+    (
+        "method",
+        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass",
+    ),
+    (
+        "plan",
+        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method",
+    ),
     (
         "frame",
-        "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method plan probe",
+        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method plan probe",
     ),
     (
         "measure",
-        "error math scene structure glsl vulkan truth twin shared part resource geometry feature pass method plan frame provenance",
+        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method plan frame provenance",
     ),
     ("report", "error math scene provenance measure"),
     (
         "experiment",
-        "error math scene read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
+        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
          measure report",
     ),
     (
         "cli",
-        "error math scene read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
+        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
          measure report experiment",
     ),
 ];

@@ -1,6 +1,7 @@
 //! All settings: each key has its option, each number its range, and each option changes its key.
 
 use clap::{Arg, Args, Command, FromArgMatches};
+use depthleap::projection::PROJECTIONS;
 use depthleap::scene::limits::Allowed;
 use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
@@ -104,7 +105,10 @@ fn every_option_has_a_key_and_changes_it_alone() {
         };
         let mut arguments = vec![format!("--{long}")];
         if option.get_num_args().is_none_or(|count| count.takes_values()) {
-            arguments.push(some_value(&option, keys.iter().find(|key| option.get_id() == key.id)));
+            let key = keys.iter().find(|key| option.get_id() == key.id);
+            // What has one word only cannot be changed.
+            let Some(value) = some_value(&option, key) else { continue };
+            arguments.push(value);
         }
         let (before, after) = (Settings::default(), under(&arguments));
         assert_ne!(value(&before, &key), value(&after, &key), "{arguments:?} changes {key}");
@@ -118,18 +122,24 @@ fn every_option_has_a_key_and_changes_it_alone() {
     }
 }
 
-/// A value of an option that is not the default.
-fn some_value(option: &Arg, key: Option<&Key>) -> String {
+/// A value of an option that is not the default; none where there is no other.
+fn some_value(option: &Arg, key: Option<&Key>) -> Option<String> {
     let long = option.get_long().unwrap();
-    let words: Vec<String> = option.get_possible_values().iter().map(|word| word.get_name().to_owned()).collect();
+    let words: Vec<String> = match long {
+        "projection" => PROJECTIONS.map(|row| row.name.to_owned()).into(),
+        _ => option.get_possible_values().iter().map(|word| word.get_name().to_owned()).collect(),
+    };
     let default = key.and_then(|key| key.default.clone());
     if let Some((_, value)) = VALUES.iter().find(|(name, _)| *name == long) {
-        return (*value).to_owned();
+        return Some((*value).to_owned());
     }
     if let Some(word) = words.iter().rfind(|word| default.as_ref() != Some(word)) {
-        return word.clone();
+        return Some(word.clone());
     }
-    match key.and_then(|key| key.limits) {
+    if !words.is_empty() {
+        return None;
+    }
+    Some(match key.and_then(|key| key.limits) {
         None if long == "tf" => "haze".to_owned(),
         None => "3".to_owned(),
         Some(limits) => {
@@ -139,7 +149,7 @@ fn some_value(option: &Arg, key: Option<&Key>) -> String {
             let number = number.into_iter().find(|number| !default.split(separator).all(|part| part == number));
             vec![number.expect(long); default.split(separator).count()].join(separator)
         }
-    }
+    })
 }
 
 /// Numbers at the ends of what is allowed.

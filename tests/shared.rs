@@ -69,6 +69,10 @@ fn frame() -> Layout {
         passes,
         first_column,
         first_row,
+        x_scale,
+        x_offset,
+        start,
+        end,
     })
 }
 

@@ -35,7 +35,8 @@ fn grid(cells: [usize; 3], sides: DVec3) -> Grid {
 
 /// Flags of the cells of one voxel.
 fn interesting(field: &Field, transfer: &TransferFunction) -> Vec<bool> {
-    cells::interesting(field, &Values::Float(field.values.as_slice().into()), transfer, &Grid::new(field, 1), false)
+    let values = Values::Float(field.values.as_slice().into());
+    cells::interesting(field, &values, &transfer.into(), &Grid::new(field, 1), false)
 }
 
 fn preset(name: &str) -> TransferFunction {
@@ -82,7 +83,7 @@ fn support_says_what_visible_says() {
     let mut seen = [0; 2];
     for _ in 0..2000 {
         let tf = random_transfer(&mut random, -0.5, 1.5);
-        let support = Support::of(&tf);
+        let support = Support::of(&(&tf).into());
         for _ in 0..50 {
             let mut ends = [0, 1].map(|_| {
                 let x = (2.5 * random.below(41) as f64 / 40.0 - 0.75) as f32;
@@ -354,7 +355,7 @@ fn invisible_by_the_table_is_invisible() {
     for round in 0..200 {
         let (low, high) = if round % 2 == 0 { (0.0, 1.0) } else { (-0.5, 1.5) };
         let tf = random_transfer(&mut random, low, high);
-        let table = visibility_table(&tf);
+        let table = visibility_table(&(&tf).into());
         for _ in 0..500 {
             let mut ends = [0, 1].map(|_| match random.below(3) {
                 0 => random.below(256) as f32 / 255.0,
@@ -379,10 +380,10 @@ fn invisible_by_the_table_is_invisible() {
 
 #[test]
 fn table_keeps_an_empty_background_empty() {
-    let table = visibility_table(&preset("linear"));
+    let table = visibility_table(&(&preset("linear")).into());
     assert_eq!(table[0], 0);
     assert!(table[1..].iter().enumerate().all(|(i, &v)| v == u8::from((i + 1) % CODES <= (i + 1) / CODES)));
     // 0.25 * 255 lies between codes 63 and 64.
-    let ramp = visibility_table(&preset("ramp"));
+    let ramp = visibility_table(&(&preset("ramp")).into());
     assert_eq!((ramp[63 * CODES], ramp[64 * CODES], ramp[64 * CODES + 64]), (0, 1, 1));
 }

@@ -35,6 +35,13 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     // The first pixel of the targets in the picture: they are as large as what the box may cover.
     uint first_column;
     uint first_row;
+    // x (0..1 over the scalar range) of a value of the volume texture: x_scale * value + x_offset.
+    float x_scale;
+    float x_offset;
+    // Of projections of values, in units of the volume texture: what a ray begins with, and beyond what values differ no
+    // more (Levels in src/projection/row.rs).
+    float start;
+    float end;
 } frame;
 
 layout(push_constant) uniform Step {

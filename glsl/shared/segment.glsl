@@ -1,5 +1,6 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
-// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl) and opacity.glsl.
+// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl), opacity.glsl and
+// projection.glsl.
 
 #ifndef PREINTEGRATED
 // Bring opacities from the reference length to the step.
@@ -17,13 +18,13 @@ float extent_of_sample(Ray ray, uint i) {
 // Premultiplied colour of the ray's segment for main pass `pass`; transparent where the ray has left the volume. Sample
 // `i` stands for all values from its own to that of the next sample, or of the exit point.
 vec4 segment_color(Ray ray, uint pass) {
-    vec4 segment = vec4(0.0);
+    vec4 segment = no_sample();
     uint first = pass * SAMPLES_PER_PASS;
     uint end = min(first + SAMPLES_PER_PASS, ray.samples);
     float front = first < end ? node_of(sample_volume(ray, steps_to(first))) : 0.0;
     for (uint i = first; i < end; ++i) {
         float back = node_of(sample_volume(ray, min(steps_to(i + 1u), ray.steps)));
-        segment = composite(segment, part_of(classify_between(front, back), extent_of_sample(ray, i)));
+        segment = joined(segment, part_of(classify_between(front, back), extent_of_sample(ray, i)));
         front = back;
     }
     return segment;
@@ -32,7 +33,7 @@ vec4 segment_color(Ray ray, uint pass) {
 // Premultiplied colour of sample `i`.
 vec4 shade_sample(Ray ray, uint i) {
     if (in_hole(ray, i)) {
-        return vec4(0.0);
+        return no_sample();
     }
     float clear;
     vec4 color = classify(sample_volume(ray, steps_to(i)), clear);
@@ -43,11 +44,11 @@ vec4 shade_sample(Ray ray, uint i) {
 
 // Premultiplied colour of the ray's segment for main pass `pass`; transparent where the ray has left the volume.
 vec4 segment_color(Ray ray, uint pass) {
-    vec4 segment = vec4(0.0);
+    vec4 segment = no_sample();
     uint first = pass * SAMPLES_PER_PASS;
     uint end = min(first + SAMPLES_PER_PASS, ray.samples);
     for (uint i = first; i < end; ++i) {
-        segment = composite(segment, shade_sample(ray, i));
+        segment = joined(segment, shade_sample(ray, i));
     }
     return segment;
 }

@@ -10,13 +10,15 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::error::{Result, shown};
 use crate::method;
 use crate::part::rows::Method;
+use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
 use crate::scene::builtin;
-use crate::scene::settings::{MethodName, Settings, SettingsOptions};
+use crate::scene::settings::{MethodName, ProjectionName, Settings, SettingsOptions};
 use crate::scene::transfer::DEFAULT_PRESET;
 
 /// What to show, how to sample it, and by which passes: all options that have their key in a scene file.
 #[derive(Clone, Debug, Default, Args)]
+#[command(mut_arg("kind", |arg| arg.value_parser(projection_parser())))]
 pub struct SceneOptions {
     #[command(flatten)]
     pub(super) given: SettingsOptions,
@@ -72,6 +74,12 @@ pub fn scene_name(settings: &Settings) -> String {
 pub(super) fn method_parser() -> impl TypedValueParser<Value = MethodName> {
     let value = |method: &Method| PossibleValue::new(method.name).help(format!("{} [{}]", method.about, method.source));
     PossibleValuesParser::new(method::METHODS.map(value)).try_map(|name| name.parse::<MethodName>())
+}
+
+/// The names of projections, each with what it is.
+fn projection_parser() -> impl TypedValueParser<Value = ProjectionName> {
+    let value = |row: &Projection| PossibleValue::new(row.name).help(format!("{} [{}]", row.about, row.source));
+    PossibleValuesParser::new(PROJECTIONS.map(value)).try_map(|name| name.parse::<ProjectionName>())
 }
 
 /// Every method that is shown for a scene when none is asked for.

@@ -1,5 +1,6 @@
 //! Colours of the transfer function.
 
+use super::classification::CLASSIFICATION;
 use super::preintegration::PREINTEGRATION;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::scene::TransferFunction;
@@ -11,6 +12,9 @@ pub const COLORS: Feature = Feature {
 };
 
 fn needed(context: &Context) -> Result<(), Why> {
+    if !context.has(&CLASSIFICATION) {
+        return Err(Why::Untold);
+    }
     if !context.plans() || !is_grey(&context.scene.transfer) {
         return Ok(());
     }

@@ -2,11 +2,12 @@
 
 use super::reasons::never_ends;
 use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::projection::Ends;
 use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
 use crate::twin::fused::blend_rounding;
 
-/// Rays whose opacity comes above T end there.
+/// Rays that need no further samples end there.
 pub const EARLY_ENDS: Feature =
     Feature { without: Some("ENDLESS"), ..Feature::at(Hook::Decide, "early ends of rays", needed) };
 
@@ -18,9 +19,14 @@ fn needed(context: &Context) -> Result<(), Why> {
     Err(if context.form.is_some() { never_ends(context).into() } else { Why::Untold })
 }
 
-/// Whether the opacity of any ray may come above T.
+/// Whether any ray may end early: where its opacity comes above T, or as the projection has it.
 pub fn may_end(context: &Context) -> bool {
-    !context.plans() || comes_above(context.scene, context.view.longest_samples, context.passes)
+    !context.plans()
+        || match context.projection().ends {
+            Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
+            Ends::Reached => true,
+            Ends::Never(_) => false,
+        }
 }
 
 /// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.

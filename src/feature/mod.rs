@@ -4,6 +4,7 @@
 //! its hook with its f64 twin, and a test of the scenes that need it and those that do not.
 
 mod block_ranges;
+mod classification;
 mod colors;
 mod counting;
 mod decisions;
@@ -16,6 +17,7 @@ mod last_sample;
 mod opacity_correction;
 mod preintegration;
 mod reasons;
+mod start;
 mod transfer_function;
 
 pub use block_ranges::BLOCK_RANGES;
@@ -23,10 +25,12 @@ pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
+pub use start::START;
 
 use crate::part::Constant;
 use crate::part::access::{Access, Usage};
 use crate::part::rows::{Context, Feature, Hook};
+use classification::CLASSIFICATION;
 use colors::COLORS;
 use decisions::LATER_DECISIONS;
 use extra_fetches::EXTRA_FETCHES;
@@ -38,13 +42,15 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 16] = [
+pub const FEATURES: [&Feature; 18] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
     &DISTANCES,
     &BLOCK_RANGES,
     &EARLY_ENDS,
+    &START,
+    &CLASSIFICATION,
     &COLORS,
     &HOLES,
     &OPACITY_CORRECTION,

@@ -1,5 +1,6 @@
 //! Opacities for other lengths than the reference length.
 
+use super::classification::CLASSIFICATION;
 use super::preintegration::PREINTEGRATION;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::scene::settings::{Alpha, Last};
@@ -11,6 +12,9 @@ pub const OPACITY_CORRECTION: Feature = Feature {
 };
 
 fn needed(context: &Context) -> Result<(), Why> {
+    if !context.has(&CLASSIFICATION) {
+        return Err(Why::Untold);
+    }
     let sampling = &context.scene.settings.sampling;
     if sampling.alpha == Alpha::Paper {
         return Err("alpha = \"paper\" takes opacities as they stand".into());

@@ -1,6 +1,7 @@
 //! Pre-integrated classification [Stegmaier05 §4].
 
-use crate::part::rows::{Feature, Hook};
+use super::classification::CLASSIFICATION;
+use crate::part::rows::{Feature, Hook, Why};
 use crate::resource;
 
 /// A table of what the transfer function gives between two values, and its axes.
@@ -10,6 +11,7 @@ pub const PREINTEGRATION: Feature = Feature {
     ..Feature::at(Hook::Sample, "pre-integrated table", |context| {
         match context.scene.settings.sampling.preintegrates() {
             true => Ok(()),
+            false if !context.has(&CLASSIFICATION) => Err(Why::Untold),
             false => Err("samples are classified by their own value".into()),
         }
     })

@@ -1,6 +1,7 @@
 //! Reasons that several features give.
 
 use crate::part::rows::Context;
+use crate::projection::Ends;
 
 /// Why there is nothing to skip.
 pub const DENSE: &str =
@@ -11,5 +12,8 @@ pub const ONLY_PASS: &str = "there is nothing to decide after the only main pass
 
 /// Why no ray ends early.
 pub fn never_ends(context: &Context) -> String {
+    if let Ends::Never(why) = context.projection().ends {
+        return why.to_owned();
+    }
     format!("no ray of this view comes to an opacity above {}", context.scene.settings.sampling.termination)
 }

@@ -1,5 +1,6 @@
 //! The transfer function's pieces, asked for the value of each sample.
 
+use super::classification::CLASSIFICATION;
 use super::colors::COLORS;
 use super::preintegration::PREINTEGRATION;
 use crate::part::Constant;
@@ -10,9 +11,9 @@ use crate::resource;
 pub const TRANSFER_FUNCTION: Feature = Feature {
     constants,
     reads: |context| vec![if context.has(&COLORS) { resource::TRANSFER } else { resource::GREY_TRANSFER }],
-    ..Feature::at(Hook::Sample, "transfer function", |context| match context.has(&PREINTEGRATION) {
-        true => Err(Why::Untold),
-        false => Ok(()),
+    ..Feature::at(Hook::Sample, "transfer function", |context| match context.has(&CLASSIFICATION) {
+        true if !context.has(&PREINTEGRATION) => Ok(()),
+        _ => Err(Why::Untold),
     })
 };
 

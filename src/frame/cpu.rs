@@ -6,6 +6,7 @@ use super::structures::Structures;
 use crate::part::geometry::{Geometry, Hits, Sample};
 use crate::part::{Draw, Group, Work};
 use crate::plan::Plan;
+use crate::projection;
 use crate::scene::Scene;
 use crate::twin::{Effect, Pixel, Twin};
 
@@ -64,6 +65,7 @@ pub const SUB_PIXEL_BITS: u32 = 8;
 pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: u32) -> CpuFrame {
     let height = plan.view.size[1];
     let table = structures.table(scene);
+    let projection = projection::of(&scene.settings);
     let twin = Twin {
         scene,
         rays: plan.view.rays,
@@ -71,6 +73,8 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
         table: table.as_deref(),
+        projection,
+        levels: projection.levels_in_x(scene),
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
     let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();

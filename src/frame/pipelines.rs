@@ -22,7 +22,7 @@ pub struct PipelineKey {
     pub shader: Option<Arc<glsl::Shader>>,
     pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
-    pub blend: bool,
+    pub blend: Blend,
     pub geometry: &'static Geometry,
 }
 
@@ -91,7 +91,7 @@ impl Pipelines {
                     bounds: key.test.bounds,
                 },
                 stencil: None,
-                blend: if key.blend { Blend::Over } else { Blend::Replace },
+                blend: key.blend,
             },
         )?);
         self.pipelines.insert(key.clone(), made.clone());

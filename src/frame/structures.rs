@@ -6,6 +6,7 @@ use cpu_time::ProcessTime;
 
 use crate::part::resource::Resource;
 use crate::plan::Plan;
+use crate::projection::Shown;
 use crate::resource;
 use crate::resource::texels::Texels;
 use crate::scene::Scene;
@@ -38,13 +39,12 @@ impl Structures {
         self.table = self.table(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::of(scene);
-            let transfer = texels.transfer(&scene.transfer);
-            let build = || structure::build(&scene.field, &texels.values, &transfer, &lookup);
+            let build = || structure::build(&scene.field, &texels.values, &texels.shown(scene), &lookup);
             self.distances.push((lookup, timed(build, |d| d.bytes.len() as u64)));
         }
         let reads = |r: Resource| plan.frame().iter().any(|s| s.accesses.iter().any(|a| a.resource == r));
         if self.blocks.is_none() && reads(resource::block_ranges()) {
-            self.blocks = Some(timed(|| Blocks::build(&scene.field, &scene.transfer), Blocks::bytes));
+            self.blocks = Some(timed(|| Blocks::build(&scene.field, &Shown::in_x(scene)), Blocks::bytes));
         }
     }
 

@@ -1,5 +1,6 @@
-//! Formulas that the passes, the reference and the structures share: rays and boxes, interpolation, opacity.
+//! Formulas that the passes, the reference and the structures share: rays and boxes, interpolation, opacity, blending.
 
+pub mod blend;
 pub mod interpolate;
 pub mod opacity;
 pub mod polyhedron;

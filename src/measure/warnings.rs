@@ -2,6 +2,7 @@
 
 use super::picture::Picture;
 use crate::plan::{self, Plan};
+use crate::projection::{self, Ends};
 use crate::resource;
 use crate::scene::Scene;
 
@@ -16,6 +17,7 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
         );
     }
     warnings.extend(background_left(scene, plan));
+    warnings.extend(clipped(picture));
     warnings
 }
 
@@ -23,13 +25,30 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
 fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
     let settings = &scene.settings;
     let termination = settings.sampling.termination;
-    let ends = plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED));
+    let by_opacity = projection::of(settings).ends == Ends::Opaque;
+    let ends = by_opacity
+        && plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED));
     let seen = settings.image.background.iter().any(|channel| *channel != 0.0);
     let left = 100.0 * (1.0 - termination);
     (ends && seen && left > 0.0).then(|| {
         format!(
             "rays end at an opacity above {termination}, so that up to {left:.3} % of the background stays in what is opaque; \
              --termination 1 ends none early"
+        )
+    })
+}
+
+/// What is less than half a step of a byte beyond a PNG's least and greatest colour is lost in none.
+const UNSEEN: f32 = 0.5 / 255.0;
+
+/// That a PNG does not show all of the picture.
+fn clipped(picture: &Picture) -> Option<String> {
+    let colors = || picture.pixels.iter().flat_map(|pixel| &pixel[..3]).copied();
+    let [least, greatest] = [colors().fold(0.0, f32::min), colors().fold(1.0, f32::max)];
+    (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
+        format!(
+            "the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY, or give another \
+             --range"
         )
     })
 }

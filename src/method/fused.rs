@@ -1,11 +1,10 @@
 //! `nn-*+fused`: near-neighbor skipping, intermediate passes after the first merged into the main passes [Thesis §5.7].
 
 use super::near_neighbor::by;
-use super::rows::{begin, decided, unswitched};
-use crate::feature::{DECISIONS, EARLY_ENDS, MARK_COPIES};
+use super::rows::{begin, decided, empty, unswitched};
+use crate::feature::{DECISIONS, MARK_COPIES};
 use crate::part::rows::{Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::clear::clear;
 use crate::pass::fused::fused;
 use crate::pass::near_neighbor::near_neighbor;
 use crate::resource;
@@ -30,7 +29,7 @@ pub const NN_CONE_FUSED: Method = row(Distance::Cone, "nn-cone+fused", "nn-cone,
 fn steps(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     begin(context, steps);
-    steps.extend(context.has(&EARLY_ENDS).then(clear));
+    empty(context, steps);
     steps.push(near_neighbor(context, 0, form));
     for pass in 0..context.passes {
         decided(context, steps, pass, context.has(&MARK_COPIES).then_some(resource::MARKS));

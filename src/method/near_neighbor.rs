@@ -1,10 +1,9 @@
 //! `nn-*`: near-neighbor skipping [Thesis §5.3, §5.3.1, §5.7].
 
-use super::rows::{BOUNDS, RAY_CASTER, begin, culled_forms, decided, unswitched};
-use crate::feature::{DECISIONS, EARLY_ENDS};
+use super::rows::{BOUNDS, RAY_CASTER, begin, culled_forms, decided, empty, unswitched};
+use crate::feature::DECISIONS;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::clear::clear;
 use crate::pass::main_pass::main_pass;
 use crate::pass::near_neighbor::near_neighbor;
 use crate::scene::settings::Distance;
@@ -52,7 +51,7 @@ pub const NN_CONE: Method = by(
 fn steps(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     begin(context, steps);
-    steps.extend(context.has(&EARLY_ENDS).then(clear));
+    empty(context, steps);
     for pass in 0..context.passes {
         steps.push(near_neighbor(context, pass, form));
         decided(context, steps, pass, None);

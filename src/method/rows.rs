@@ -1,12 +1,12 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
-use crate::feature::{BATCH, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES};
+use crate::feature::{BATCH, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES, START};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::{alive, clear, direction, entry, main_pass, mark_copy};
+use crate::pass::{alive, clear, direction, entry, main_pass, mark_copy, start};
 use crate::scene::settings::{Cull, Mark};
 
 /// Steps before the first main pass, with one to spare.
@@ -50,13 +50,21 @@ pub fn culled_forms() -> Vec<Form> {
     forms
 }
 
-/// ENTRY and DIR, which every ray caster begins with, after room was made for its passes.
+/// ENTRY and DIR, which every ray caster begins with, and what rays begin with, after room was made for its passes.
 pub fn begin(context: &Context, steps: &mut Steps) {
     let decides = context.has(&DECISIONS) && !context.method.fused;
     let a_pass = 1 + usize::from(decides) + usize::from(context.has(&MARK_COPIES));
     steps.reserve(a_pass * context.passes as usize + (context.passes / BATCH) as usize + STEPS_BEFORE);
     steps.push(entry::entry());
     steps.push(direction::direction());
+    steps.extend(context.has(&START).then(|| start::start(context)));
+}
+
+/// Empties RES where an intermediate pass reads it before the first main pass, unless rays begin with something.
+pub fn empty(context: &Context, steps: &mut Steps) {
+    if context.has(&EARLY_ENDS) && !context.has(&START) {
+        steps.push(clear::clear());
+    }
 }
 
 /// Main passes that run for every fragment.
@@ -69,8 +77,8 @@ pub fn unswitched(context: &Context, steps: &mut Steps) {
 pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Context, u32, Form) -> Step) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     begin(context, steps);
-    if first == 0 && context.has(&EARLY_ENDS) {
-        steps.push(clear::clear());
+    if first == 0 {
+        empty(context, steps);
     }
     for pass in 0..context.passes {
         let mut culled: Option<(Cull, f32)> = None;

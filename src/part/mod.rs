@@ -14,6 +14,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::glsl::Shader;
+use crate::math::blend::Blend;
 use crate::shared::Slice;
 use crate::twin::TwinPass;
 use access::Access;
@@ -150,8 +151,8 @@ pub struct Draw {
     pub shader: Option<Arc<Shader>>,
     /// Specialization constants, by name.
     pub constants: Arc<Vec<Constant>>,
-    /// Put under what is there [KW03 §1.1], rather than replacing it.
-    pub blend: bool,
+    /// How its colour goes into what is there.
+    pub blend: Blend,
     /// The same in f64; none where a pixel is not changed.
     pub twin: Option<TwinPass>,
 }
@@ -180,7 +181,7 @@ impl Draw {
             test: DepthTest::NONE,
             shader: Some(Arc::new(Shader::new(file, []))),
             constants: Arc::default(),
-            blend: false,
+            blend: Blend::Replace,
             twin: Some(twin),
         }
     }

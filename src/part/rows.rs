@@ -9,6 +9,7 @@ use super::form::Form;
 use super::resource::Resource;
 use super::steps::Steps;
 use crate::error::{Error, Result};
+use crate::projection::{self, Projection};
 use crate::scene::Scene;
 use crate::scene::settings::Distance;
 use crate::scene::view::View;
@@ -217,6 +218,11 @@ impl<'a> Context<'a> {
     /// Whether what the scene does not need is left out.
     pub fn plans(&self) -> bool {
         self.scene.settings.method.planner
+    }
+
+    /// How the samples of a ray become its pixel.
+    pub fn projection(&self) -> &'static Projection {
+        projection::of(&self.scene.settings)
     }
 
     /// What the method looks up of what lies ahead; none where it looks up no distances.

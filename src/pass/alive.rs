@@ -3,6 +3,7 @@
 use ash::vk;
 
 use crate::geometry::BOX_FRONT;
+use crate::math::blend::Blend;
 use crate::part::access::Usage;
 use crate::part::resource::Resource;
 use crate::part::{DepthTest, Draw, Group, Step, Work};
@@ -30,7 +31,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },
             shader: None,
             constants: Default::default(),
-            blend: false,
+            blend: Blend::Replace,
             twin: None,
         }),
     }

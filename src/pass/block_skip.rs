@@ -26,6 +26,7 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
+    draw.specialize([constants::projection(context)]);
     draw.specialize(feature::constants(context, Hook::Decide));
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("block_skip #{pass}"), Group::Intermediate, pass, accesses, draw)

@@ -1,11 +1,17 @@
 //! Specialization constants that no feature sets, by the shader header that declares them.
 
 use crate::part::Constant;
+use crate::part::rows::Context;
 use crate::scene::Scene;
 
 /// M, of `frame.glsl`.
 pub fn samples(scene: &Scene) -> Constant {
     ("SAMPLES_PER_PASS", scene.settings.sampling.samples_per_pass)
+}
+
+/// Of `projection.glsl`: how samples become a pixel.
+pub fn projection(context: &Context) -> Constant {
+    ("PROJECTION", context.projection().code)
 }
 
 /// Of passes that look ahead: a sample stands for all values up to the next one.

@@ -31,13 +31,13 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let mut draw = Draw::plain(&BOX_FRONT, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Sample));
     draw.define(feature::defines(context, Hook::Decide));
-    draw.blend = true;
+    draw.blend = context.projection().blend;
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Sample));
     draw.specialize(feature::constants(context, Hook::Decide));
     let rounding = twin::fused::blend_rounding(scene.settings.image.accumulate);
-    draw.specialize([("BLEND_ROUNDING", rounding.to_bits())]);
+    draw.specialize([("BLEND_ROUNDING", rounding.to_bits()), constants::projection(context)]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     if pass + 1 < context.passes {
         cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));

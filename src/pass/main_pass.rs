@@ -23,8 +23,8 @@ pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(&BOX_FRONT, "main_pass.frag", twin::main_pass::main_pass);
     draw.define(feature::defines(context, Hook::Sample));
-    draw.blend = true;
-    draw.specialize([constants::samples(context.scene)]);
+    draw.blend = context.projection().blend;
+    draw.specialize([constants::samples(context.scene), constants::projection(context)]);
     draw.specialize(feature::constants(context, Hook::Sample));
     if let Some((how, bound)) = culled {
         cull::cull_by_stored(&mut draw, &mut accesses, how, bound);

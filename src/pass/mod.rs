@@ -14,4 +14,5 @@ pub mod fused;
 pub mod main_pass;
 pub mod mark_copy;
 pub mod near_neighbor;
+pub mod start;
 pub mod termination;

@@ -28,6 +28,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     draw.define(feature::defines(context, Hook::Decide));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
+    draw.specialize([constants::projection(context)]);
     draw.specialize(feature::constants(context, Hook::Decide));
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);

@@ -21,7 +21,8 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::ACCUMULATED),
     ];
     let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
-    draw.specialize([constants::samples(context.scene), constants::depth_bits(context.scene)]);
+    let scene = context.scene;
+    draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::projection(context)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

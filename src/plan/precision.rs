@@ -4,7 +4,10 @@
 //! c the colours, a the opacities of one ray and c', a' those of the other, what lies behind a sample in B:
 //! |difference| <= sum of T |c a - c' a' - (a - a') B| <= sum of T (brightest |a - a'| + a' |c - c'|), where T, the light
 //! that comes through, is at most 1 and T a' adds up to at most 1.
+//!
+//! Where a projection shows values, its row says what a difference in every sample becomes.
 
+use crate::projection::{self, OfValues};
 use crate::scene::Scene;
 use crate::scene::settings::{Alpha, Last};
 use crate::scene::transfer::Knot;
@@ -16,6 +19,9 @@ const SAMPLE_ROUNDING: f64 = 1e-6;
 /// A bound of the difference of a channel, premultiplied and linear, between the picture of rays of so many `samples` in
 /// so many `passes`, whose x is off by at most `error`, and that of exact interpolation. `ends`: rays may end early.
 pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: bool) -> f64 {
+    if let Some(values) = &projection::of(&scene.settings).values {
+        return value_error(scene, values, error, samples, passes);
+    }
     let sampling = &scene.settings.sampling;
     let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
     if error == 0.0 || !error.is_finite() {
@@ -25,9 +31,24 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     let color = (0..3).map(|c| change(scene, error, |knot| knot.color[c])).fold(0.0, f64::max);
     // One ray may end a pass before the other.
     let ended = if ends { 1.0 - sampling.termination } else { 0.0 };
-    let rounding = f64::from(samples) * SAMPLE_ROUNDING
-        + 2.0 * f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate));
-    (brightest * (f64::from(samples) * opacity + ended) + color + brightest * rounding).min(brightest)
+    (brightest * (f64::from(samples) * opacity + ended) + color + brightest * rounding(scene, samples, passes))
+        .min(brightest)
+}
+
+/// What samples and blending of both pictures take from a sum about 1.
+fn rounding(scene: &Scene, samples: u32, passes: u32) -> f64 {
+    let blended = 2.0 * f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate));
+    f64::from(samples) * SAMPLE_ROUNDING + blended
+}
+
+/// The same where values are shown: each sample is off by the error, and what is summed up is rounded.
+fn value_error(scene: &Scene, values: &OfValues, error: f64, samples: u32, passes: u32) -> f64 {
+    if error == 0.0 {
+        return 0.0;
+    }
+    let lengths = f64::from(samples.saturating_add(1)) * scene.settings.sampling.step / scene.transfer.reference;
+    let [low, high] = scene.field.extremes().map(|x| f64::from(x).abs());
+    (values.magnification)(lengths) * (error + low.max(high) * rounding(scene, samples, passes))
 }
 
 /// The most that a part of the transfer function changes over so much of x, among the values there are.

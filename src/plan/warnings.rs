@@ -1,6 +1,7 @@
 //! What is to be known of a picture: what was done to its volume, and what may make it mislead, with what to try.
 
 use super::Plan;
+use crate::projection;
 use crate::scene::Scene;
 use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Filter, VolumeTexture};
@@ -46,7 +47,8 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
              with the sides {sides}; choose another --eye or --target, or more pixels (--viewport)"
         ));
     }
-    if any_interesting(scene) {
+    // Where values are shown the box is opaque everywhere.
+    if projection::of(&scene.settings).shows_values() || any_interesting(scene) {
         return None;
     }
     if scene.transfer.knots().iter().all(|knot| knot.opacity == 0.0) {

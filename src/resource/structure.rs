@@ -45,7 +45,7 @@ static BLOCK_TABLE_INFO: ResourceInfo = ResourceInfo {
         shared: |_| false,
     }),
     life: Life::Transfer,
-    origin: Origin::Host(|facts| visibility_table(&Texels::of(facts.scene).transfer(&facts.scene.transfer)).into()),
+    origin: Origin::Host(|facts| visibility_table(&Texels::of(facts.scene).shown(facts.scene)).into()),
 };
 
 /// Where the transfer function shows anything.
@@ -59,7 +59,7 @@ static SUPPORT_INFO: ResourceInfo = ResourceInfo {
 };
 
 fn support(facts: &Facts) -> Cow<'static, [u8]> {
-    let support = Support::of(&Texels::of(facts.scene).transfer(&facts.scene.transfer));
+    let support = Support::of(&Texels::of(facts.scene).shown(facts.scene));
     bytemuck::cast_slice(&support.closed()).to_vec().into()
 }
 

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use ash::vk;
 use rayon::prelude::*;
 
-use crate::scene::texture::{Coding, Stretch, TexelFormat, TextureChoice, code_span};
+use crate::projection::Shown;
+use crate::scene::texture::{Coding, Stretch, TexelFormat, TextureChoice, TextureMap};
 use crate::scene::volume::Voxels;
 use crate::scene::{Field, Scene, TransferFunction};
 use crate::structure::cells::Values;
@@ -26,20 +27,24 @@ impl<'a> Texels<'a> {
     }
 
     fn new(field: &'a Field, kept: Coding) -> Self {
-        match kept {
+        let values = match kept {
             Coding::Stretched => Self::stretched(field),
             Coding::Spread => Self::spread(field),
-            Coding::Float => Self { values: Values::Float(field.values.as_slice().into()), scale: 1.0, offset: 0.0 },
+            Coding::Float => Self::floats(field),
             Coding::Stored | Coding::Widened => Self::coded(field, kept),
-        }
+        };
+        let TextureMap { scale, offset } = TextureMap::of(field, kept);
+        Self { values, scale, offset }
+    }
+
+    fn floats(field: &'a Field) -> Values<'a> {
+        Values::Float(field.values.as_slice().into())
     }
 
     /// Integers as stored: the texture's value is (voxel - least) / (most - least) of their type. Where x is 0 everywhere,
     /// so is the texture's value.
-    fn coded(field: &'a Field, kept: Coding) -> Self {
-        let [low, high] = field.range;
-        let [least, most] = code_span(field).unwrap_or_default();
-        let values = match (&field.volume.voxels, kept) {
+    fn coded(field: &'a Field, kept: Coding) -> Values<'a> {
+        match (&field.volume.voxels, kept) {
             (Voxels::U8(v), Coding::Widened) => Values::Unorm16(codes(field, v, |v| u16::from(v) * WIDEN).into()),
             (Voxels::U8(v), _) => Values::Unorm8(borrowed_or(field, v, || codes(field, v, |v| v))),
             (Voxels::I8(v), Coding::Widened) => {
@@ -49,18 +54,13 @@ impl<'a> Texels<'a> {
             (Voxels::U16(v), _) => Values::Unorm16(borrowed_or(field, v, || codes(field, v, |v| v))),
             (Voxels::I16(v), _) => Values::Unorm16(codes(field, v, |v| v.wrapping_sub(i16::MIN) as u16).into()),
             // Other types have no codes.
-            _ => return Self::new(field, Coding::Float),
-        };
-        if field.has_empty_range() {
-            return Self { values, scale: 1.0, offset: 0.0 };
+            _ => Self::floats(field),
         }
-        Self { values, scale: (high - low) / (most - least), offset: (low - least) / (most - least) }
     }
 
     /// Whole numbers, times one that lets them fill 16 bits.
-    fn stretched(field: &'a Field) -> Self {
+    fn stretched(field: &'a Field) -> Values<'a> {
         let Stretch { least, factor } = Stretch::of(field);
-        let [low, high] = field.range;
         let code = |value: f64| (value - least).clamp(0.0, f64::from(u16::MAX)) as u16 * factor;
         let values = match &field.volume.voxels {
             Voxels::U8(v) => codes(field, v, |v| code(f64::from(v))),
@@ -68,19 +68,18 @@ impl<'a> Texels<'a> {
             Voxels::U16(v) => codes(field, v, |v| code(f64::from(v))),
             Voxels::I16(v) => codes(field, v, |v| code(f64::from(v))),
             // Other types are not stretched.
-            _ => return Self::new(field, Coding::Float),
+            _ => return Self::floats(field),
         };
-        let unit = f64::from(factor) / f64::from(u16::MAX);
-        Self { values: Values::Unorm16(values.into()), scale: (high - low) * unit, offset: (low - least) * unit }
+        Values::Unorm16(values.into())
     }
 
     /// 16 bits over the values there are.
-    fn spread(field: &Field) -> Self {
+    fn spread(field: &Field) -> Values<'static> {
         let [low, high] = field.extremes().map(f64::from);
         let span = if high > low { high - low } else { 1.0 };
         let code = |x: &f32| ((f64::from(*x) - low) / span * f64::from(u16::MAX)).round() as u16;
         let codes: Vec<u16> = field.values.par_iter().map(code).collect();
-        Self { values: Values::Unorm16(codes.into()), scale: 1.0 / span, offset: -low / span }
+        Values::Unorm16(codes.into())
     }
 
     pub fn format(&self) -> vk::Format {
@@ -97,6 +96,11 @@ impl<'a> Texels<'a> {
             Values::Unorm16(codes) => bytemuck::cast_slice(codes),
             Values::Float(values) => bytemuck::cast_slice(values),
         }
+    }
+
+    /// What shows of a scene, among the texture's values.
+    pub fn shown(&self, scene: &Scene) -> Shown {
+        Shown::of(scene, TextureMap { scale: self.scale, offset: self.offset })
     }
 
     /// The transfer function over the texture's values.

@@ -8,6 +8,7 @@ mod fixed;
 pub mod limits;
 pub mod longest;
 pub mod method;
+pub mod projection;
 pub mod range;
 pub mod region;
 pub mod settings;

@@ -142,6 +142,53 @@ impl TextureChoice {
     }
 }
 
+/// The map from x (0..1 over the scalar range) to the texture's own value: `scale * x + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureMap {
+    pub scale: f64,
+    pub offset: f64,
+}
+
+impl TextureMap {
+    /// Of x itself.
+    pub const IDENTITY: Self = Self { scale: 1.0, offset: 0.0 };
+
+    /// The map to texels that are kept in that way.
+    pub fn of(field: &Field, kept: Coding) -> Self {
+        if field.has_empty_range() && kept != Coding::Spread {
+            return Self::IDENTITY;
+        }
+        let [low, high] = field.range;
+        match (kept, code_span(field)) {
+            (Coding::Stored | Coding::Widened, Some([least, most])) => {
+                Self { scale: (high - low) / (most - least), offset: (low - least) / (most - least) }
+            }
+            (Coding::Stretched, Some(_)) => {
+                let Stretch { least, factor } = Stretch::of(field);
+                let unit = f64::from(factor) / f64::from(u16::MAX);
+                Self { scale: (high - low) * unit, offset: (low - least) * unit }
+            }
+            (Coding::Spread, _) => {
+                let [low, high] = field.extremes().map(f64::from);
+                let span = if high > low { high - low } else { 1.0 };
+                Self { scale: 1.0 / span, offset: -low / span }
+            }
+            // Other types have no codes.
+            (Coding::Float | Coding::Stored | Coding::Widened | Coding::Stretched, _) => Self::IDENTITY,
+        }
+    }
+
+    /// The texture's value of x.
+    pub fn value(self, x: f64) -> f64 {
+        self.scale * x + self.offset
+    }
+
+    /// x of a value of the texture.
+    pub fn x(self, value: f64) -> f64 {
+        (value - self.offset) / self.scale
+    }
+}
+
 /// A bound as tables and plans show it.
 pub struct Within(pub f64);
 

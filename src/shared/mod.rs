@@ -9,7 +9,9 @@ pub use slice::Slice;
 use bytemuck::{Pod, Zeroable};
 
 use crate::math::ray::ViewRays;
+use crate::projection;
 use crate::scene::Scene;
+use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::scene::transfer::TransferFunction;
 use crate::truth::preintegrated::PreintegratedTable;
 
@@ -46,6 +48,10 @@ pub struct Frame {
     pub passes: u32,
     pub first_column: u32,
     pub first_row: u32,
+    pub x_scale: f32,
+    pub x_offset: f32,
+    pub start: f32,
+    pub end: f32,
 }
 
 impl Frame {
@@ -54,6 +60,8 @@ impl Frame {
         let sampling = &scene.settings.sampling;
         let step = sampling.step * scene.field.finest();
         let dims = scene.field.dims().map(|n| n as f32);
+        let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
+        let levels = projection::of(&scene.settings).levels(scene, map);
         Self {
             eye: double_floats(rays.eye),
             base: double_floats(rays.base),
@@ -72,6 +80,11 @@ impl Frame {
             passes,
             first_column: first[0],
             first_row: first[1],
+            // Where a range is so narrow that f32 has no number for it, the largest.
+            x_scale: (1.0 / map.scale).min(f32::MAX.into()) as f32,
+            x_offset: (-map.offset / map.scale) as f32,
+            start: levels.start as f32,
+            end: levels.end as f32,
         }
     }
 }

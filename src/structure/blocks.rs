@@ -4,7 +4,8 @@
 //! first voxels of the next block, and a range without them misses a thin wall on a seam.
 
 use super::ranges::{ROUNDING, ranges};
-use crate::scene::{Field, TransferFunction};
+use crate::projection::Shown;
+use crate::scene::Field;
 
 /// Cells along a side of a block.
 pub const BLOCK: usize = 8;
@@ -24,15 +25,14 @@ pub fn range_codes(min: f32, max: f32) -> (u8, u8) {
     (low, high)
 }
 
-/// CT [KW03 §2.3]: `CODES` x `CODES` entries, `[high code][low code]`, 1 where the transfer function is visible
-/// anywhere in a range with these codes, interpolation's rounding included. Entries with low above high are 0.
+/// CT [KW03 §2.3]: `CODES` x `CODES` entries, `[high code][low code]`, 1 where anything shows in a range
+/// with these codes, interpolation's rounding included. Entries with low above high are 0.
 ///
-/// Code 0 stands for everything up to 0 and code 255 for everything from 1 on. Where all knots lie within [0, 1] the
-/// function is constant out there and the clamped value says the same; else the whole outside is asked.
-pub fn visibility_table(transfer: &TransferFunction) -> Vec<u8> {
-    let knots = transfer.knots();
-    let open_below = knots[0].x < 0.0;
-    let open_above = knots[knots.len() - 1].x > 1.0;
+/// Code 0 stands for everything up to 0 and code 255 for everything from 1 on. Where what shows
+/// changes within [0, 1] only, the clamped value says the same; else the whole outside is asked.
+pub fn visibility_table(shown: &Shown) -> Vec<u8> {
+    let [first, last] = shown.turns();
+    let (open_below, open_above) = (first < 0.0, last > 1.0);
     let mut table = vec![0; CODES * CODES];
     for high in 0..CODES {
         for low in 0..=high {
@@ -41,7 +41,7 @@ pub fn visibility_table(transfer: &TransferFunction) -> Vec<u8> {
             let slack = f64::from(ROUNDING) * to;
             from = if low == 0 && open_below { f64::NEG_INFINITY } else { from - slack };
             to = if high == CODES - 1 && open_above { f64::INFINITY } else { to + slack };
-            table[high * CODES + low] = u8::from(transfer.visible(from, to));
+            table[high * CODES + low] = u8::from(shown.anywhere(from, to));
         }
     }
     table
@@ -56,9 +56,9 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    pub fn build(field: &Field, transfer: &TransferFunction) -> Self {
+    pub fn build(field: &Field, shown: &Shown) -> Self {
         let (dims, ranges) = ranges(field, BLOCK);
-        Self { dims, ranges, table: visibility_table(transfer) }
+        Self { dims, ranges, table: visibility_table(shown) }
     }
 
     /// Blocks along each side of a volume.

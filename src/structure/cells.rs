@@ -1,7 +1,7 @@
-//! Which cells are interesting: those whose values reach into what the transfer function shows.
+//! Which cells are interesting: those whose values reach into what shows.
 //!
-//! A cell interpolates its 2x2x2 voxels, so its values fill [min, max] of them and the transfer function is asked
-//! over that whole range, never at sample points.
+//! A cell interpolates its 2x2x2 voxels, so its values fill [min, max] of them and what shows is asked over that whole
+//! range, never at sample points.
 
 use std::borrow::Cow;
 
@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::grid::Grid;
 use super::ranges::{ROUNDING, ranges_of};
+use crate::projection::Shown;
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Scene, TransferFunction};
 
@@ -26,40 +27,21 @@ pub fn widened(low: f32, high: f32) -> [f32; 2] {
     [low - by, high + by]
 }
 
-/// Where a transfer function shows anything: closed intervals of f32, rising and apart, such that it is visible over
-/// `[low, high]` exactly when that meets one of them. An end at which opacity starts from 0 is not visible itself; the
-/// interval then begins at the next f32.
+/// Where anything shows: closed intervals of f32, rising and apart, such that something shows in `[low, high]` exactly when
+/// that meets one of them. An end at which opacity starts from 0 is not visible itself; the interval then begins at the next
+/// f32.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support(Vec<[f32; 2]>);
 
 impl Support {
-    pub fn of(transfer: &TransferFunction) -> Self {
-        let knots = transfer.knots();
-        let (first, last) = (knots[0], knots[knots.len() - 1]);
-        // In f64 first, every number a point: an open interval is a closed one between its inner neighbours.
-        let mut closed: Vec<[f64; 2]> = Vec::new();
-        let mut put = |low: f64, high: f64| match closed.last_mut() {
-            Some(before) if low <= before[1].next_up() => before[1] = before[1].max(high),
-            _ => closed.push([low, high]),
+    pub fn of(shown: &Shown) -> Self {
+        let intervals = match shown {
+            Shown::Visible(transfer) => visible(transfer),
+            Shown::Within(intervals) => intervals.clone(),
         };
-        if first.opacity > 0.0 {
-            put(f64::NEG_INFINITY, first.x);
-        }
-        for pair in knots.windows(2) {
-            if pair[0].opacity > 0.0 {
-                put(pair[0].x, pair[0].x);
-            }
-            let (low, high) = (pair[0].x.next_up(), pair[1].x.next_down());
-            if (pair[0].opacity > 0.0 || pair[1].opacity > 0.0) && low <= high {
-                put(low, high);
-            }
-        }
-        if last.opacity > 0.0 {
-            put(last.x, f64::INFINITY);
-        }
         // A range of f32 meets an interval exactly when it meets the f32 within; where there is none, `low` ends up
         // above `high` and only ranges across both meet it.
-        Self(closed.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())
+        Self(intervals.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())
     }
 
     /// The intervals as a device may have them: one that begins just above 0 begins at the first normal number, since
@@ -78,6 +60,34 @@ impl Support {
         let not_below = self.0.partition_point(|interval| interval[1] < low);
         self.0.get(not_below).is_some_and(|interval| interval[0] <= high)
     }
+}
+
+/// Where a transfer function has any opacity: closed intervals, rising and apart.
+fn visible(transfer: &TransferFunction) -> Vec<[f64; 2]> {
+    let knots = transfer.knots();
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    // In f64 first, every number a point: an open interval is a closed one between its inner neighbours.
+    let mut closed: Vec<[f64; 2]> = Vec::new();
+    let mut put = |low: f64, high: f64| match closed.last_mut() {
+        Some(before) if low <= before[1].next_up() => before[1] = before[1].max(high),
+        _ => closed.push([low, high]),
+    };
+    if first.opacity > 0.0 {
+        put(f64::NEG_INFINITY, first.x);
+    }
+    for pair in knots.windows(2) {
+        if pair[0].opacity > 0.0 {
+            put(pair[0].x, pair[0].x);
+        }
+        let (low, high) = (pair[0].x.next_up(), pair[1].x.next_down());
+        if (pair[0].opacity > 0.0 || pair[1].opacity > 0.0) && low <= high {
+            put(low, high);
+        }
+    }
+    if last.opacity > 0.0 {
+        put(last.x, f64::INFINITY);
+    }
+    closed
 }
 
 /// The least f32 that is not below `x`.
@@ -99,17 +109,11 @@ pub enum Values<'a> {
     Float(Cow<'a, [f32]>),
 }
 
-/// One flag a cell of `grid`, x fastest: whether the transfer function is visible over its values, widened by
-/// [`ROUNDING`]; with `nearest`, over the value of any of its voxels. Holes are not interesting; larger cells that have
-/// some count as what those were filled with. `transfer` is over the texture's values.
-pub fn interesting(
-    field: &Field,
-    values: &Values,
-    transfer: &TransferFunction,
-    grid: &Grid,
-    nearest: bool,
-) -> Vec<bool> {
-    let support = &Support::of(transfer);
+/// One flag a cell of `grid`, x fastest: whether anything shows among its values, widened by [`ROUNDING`]; with `nearest`,
+/// at the value of any of its voxels. Holes are not interesting; larger cells that have some count as what those were
+/// filled with. `shown` is said of the texture's values.
+pub fn interesting(field: &Field, values: &Values, shown: &Shown, grid: &Grid, nearest: bool) -> Vec<bool> {
+    let support = &Support::of(shown);
     match (values, nearest) {
         (Values::Unorm8(codes), false) => of_values(field, codes, unorm8, support, grid),
         (Values::Unorm16(codes), false) => of_values(field, codes, unorm16, support, grid),
@@ -156,13 +160,13 @@ fn leave_out_holes(field: &Field, grid: &Grid, flags: &mut [bool]) {
 
 /// Whether no cell of the volume is left that shows nothing, so that there is nothing to skip. Stops at the first one.
 pub fn all_interesting(scene: &Scene) -> bool {
-    let (field, support) = (&scene.field, Support::of(&scene.transfer));
+    let (field, support) = (&scene.field, Support::of(&Shown::in_x(scene)));
     field.holes.is_none() && (0..field.cells().iter().product()).into_par_iter().all(|i| shows(scene, &support, i))
 }
 
 /// Whether any cell of the volume shows something. Stops at the first one.
 pub fn any_interesting(scene: &Scene) -> bool {
-    let (field, support) = (&scene.field, Support::of(&scene.transfer));
+    let (field, support) = (&scene.field, Support::of(&Shown::in_x(scene)));
     let hole = |i: usize| field.holes.as_ref().is_some_and(|holes| holes[i]);
     (0..field.cells().iter().product()).into_par_iter().any(|i| !hole(i) && shows(scene, &support, i))
 }

@@ -12,8 +12,9 @@ pub mod wide;
 
 use glam::DVec3;
 
-use crate::scene::settings::{Distance, Filter};
-use crate::scene::{Field, Scene, TransferFunction};
+use crate::projection::Shown;
+use crate::scene::settings::{Distance, Filter, ProjectionName};
+use crate::scene::{Field, Scene};
 use bundle::Bundles;
 use cells::Values;
 use grid::{DistanceField, Grid};
@@ -27,6 +28,8 @@ pub struct Lookup {
     pub cell: u32,
     /// Samples have the value of the nearest voxel, so that a cell shows what one of its voxels shows, and nothing between.
     pub nearest: bool,
+    /// What counts as interesting is a matter of the projection.
+    pub projection: ProjectionName,
     /// Where rays come from (volume space) and how far their directions may be off: for structures made for a view.
     pub view: Option<LookupView>,
 }
@@ -55,15 +58,15 @@ impl Lookup {
             Distance::Optimal => view(None),
             Distance::Cone => view(Some(method.cone.to_radians())),
         };
-        Self { distance, cell: method.cell, nearest, view }
+        Self { distance, cell: method.cell, nearest, projection: scene.settings.projection.kind, view }
     }
 }
 
 /// The structure of an `nn-*` method on the host: the twin of what compute shaders build. `values` are the volume's as
-/// a texture holds them, and `transfer` is over these.
-pub fn build(field: &Field, values: &Values, transfer: &TransferFunction, lookup: &Lookup) -> DistanceField {
+/// a texture holds them, and `shown` is said of these.
+pub fn build(field: &Field, values: &Values, shown: &Shown, lookup: &Lookup) -> DistanceField {
     let grid = Grid::new(field, lookup.cell);
-    let interesting = cells::interesting(field, values, transfer, &grid, lookup.nearest);
+    let interesting = cells::interesting(field, values, shown, &grid, lookup.nearest);
     match (lookup.distance, &lookup.view) {
         (Distance::Directional, _) => octants::directional(&grid, &interesting),
         (_, None) => distance::omni(&grid, &interesting),

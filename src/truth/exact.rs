@@ -1,5 +1,6 @@
 //! The emission-absorption integral along a ray, to near the limits of f64: the truth that every sampled picture
-//! approaches as its step goes to 0.
+//! approaches as its step goes to 0. And what a ray meets of the field itself, for projections of values: the extrema and the
+//! integral of the interpolant, cell by cell in closed form.
 //!
 //! C = integral of c(s) sigma(s) exp(-tau(s)) ds and opacity 1 - exp(-tau(L)), with
 //! sigma = -ln(1 - alpha) / reference length.
@@ -23,6 +24,7 @@
 //! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
 
 mod cubic;
+mod met;
 mod panel;
 
 pub use panel::TOLERANCE;
@@ -31,19 +33,22 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use self::cubic::Cubic;
+use self::met::Meeting;
 use self::panel::{Medium, Segment};
 use crate::math::interpolate::nearest;
 use crate::math::ray::{ViewRays, box_interval};
+use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Scene, TransferFunction};
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
 const BLACK: f64 = 1e-17;
 
-/// Integrates rays through one field under one transfer function.
+/// Integrates rays through one field, under one transfer function or as another projection has it.
 pub struct ExactIntegrator<'a> {
     field: &'a Field,
     medium: Absorber<'a>,
+    projection: &'static Projection,
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
 }
@@ -64,6 +69,13 @@ struct VoxelRay {
     direction: DVec3,
 }
 
+/// The way of a line through a cell; see [`Cubic::of_cell`].
+struct CellPart {
+    corners: [f64; 8],
+    start: [f64; 3],
+    rise: [f64; 3],
+}
+
 /// Light gathered so far, premultiplied, and what is left to pass.
 struct Light {
     color: [f64; 3],
@@ -72,13 +84,13 @@ struct Light {
 
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
-        Self { field, medium: Absorber::new(transfer), nearest: false }
+        Self { field, medium: Absorber::new(transfer), projection: &COMPOSITE, nearest: false }
     }
 
-    /// Of a scene: its field between voxels is what its filter makes of it.
+    /// Of a scene, by its projection: its field between voxels is what its filter makes of it.
     pub fn of(scene: &'a Scene) -> Self {
         let nearest = scene.settings.sampling.filter == Filter::Nearest;
-        Self { nearest, ..Self::new(&scene.field, &scene.transfer) }
+        Self { nearest, projection: projection::of(&scene.settings), ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -87,13 +99,25 @@ impl<'a> ExactIntegrator<'a> {
     pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
         let voxel = self.field.voxel();
         let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
+        let cuts = self.plane_cuts(&line, length);
+        let parts = cuts.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| a < b);
+        if let Some(values) = &self.projection.values {
+            let lengths = |way: f64| way / (self.medium.transfer.reference * self.field.finest());
+            let mut meeting = Meeting::new(self.field);
+            for (a, b) in parts {
+                meeting.add(self.cell(&line, a, b).map(|cell| cell.cubic()), lengths(b - a));
+            }
+            let Some(met) = meeting.whole() else { return [0.0; 4] };
+            let value = (values.exact)(&met);
+            return [value, value, value, 1.0];
+        }
         let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
-        for pair in self.plane_cuts(&line, length).windows(2) {
+        for (a, b) in parts {
             if light.transmittance * self.medium.brightest < BLACK {
                 break;
             }
-            if pair[0] < pair[1] {
-                self.cell(&line, pair[0], pair[1], length, &mut light);
+            if let Some(cell) = self.cell(&line, a, b) {
+                self.part(&cell, (a, b), length, &mut light);
             }
         }
         light.rgba()
@@ -146,8 +170,9 @@ impl<'a> ExactIntegrator<'a> {
         cuts
     }
 
-    /// Adds the part [a, b] of the line, which lies inside one cell or beyond the outermost voxel centres.
-    fn cell(&self, line: &VoxelRay, a: f64, b: f64, length: f64, light: &mut Light) {
+    /// The field on the part [a, b] of the line, which lies inside one cell or beyond the outermost voxel centres; none in
+    /// a hole.
+    fn cell(&self, line: &VoxelRay, a: f64, b: f64) -> Option<CellPart> {
         let dims = self.field.dims();
         let middle = line.origin + 0.5 * (a + b) * line.direction;
         let mut low = [0; 3];
@@ -167,37 +192,34 @@ impl<'a> ExactIntegrator<'a> {
             let cells = self.field.cells();
             let [x, y, z] = std::array::from_fn(|axis| low[axis].min(cells[axis] - 1));
             if holes[(z * cells[1] + y) * cells[0] + x] {
-                return;
+                return None;
             }
         }
         if self.nearest {
             let value = nearest(&self.field.values, dims, middle + 0.5);
-            return self.part([value; 8], [0.0; 3], [0.0; 3], (a, b), length, light);
+            return Some(CellPart { corners: [value; 8], start: [0.0; 3], rise: [0.0; 3] });
         }
         let corners: [f64; 8] = std::array::from_fn(|corner| {
             let at = |axis: usize| (low[axis] + (corner >> axis & 1)).min(dims[axis] - 1);
             f64::from(self.field.values[(at(2) * dims[1] + at(1)) * dims[0] + at(0)])
         });
-        self.part(corners, start, rise, (a, b), length, light);
+        Some(CellPart { corners, start, rise })
     }
 
-    /// Adds the part [a, b] of the line, on which the value is that of a cell with these `corners` (see
-    /// [`Cubic::of_cell`]).
-    fn part(
-        &self,
-        corners: [f64; 8],
-        start: [f64; 3],
-        rise: [f64; 3],
-        (a, b): (f64, f64),
-        length: f64,
-        light: &mut Light,
-    ) {
-        let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    /// Adds the part [a, b] of the line, which runs through that part of a cell.
+    fn part(&self, cell: &CellPart, (a, b): (f64, f64), length: f64, light: &mut Light) {
+        let least = cell.corners.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = cell.corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if self.medium.transfer.visible(least, most) {
             let lengths = (b - a) / (self.medium.transfer.reference * self.field.finest());
-            self.medium.add(&Cubic::of_cell(corners, start, rise), lengths, (b - a) / length, light);
+            self.medium.add(&cell.cubic(), lengths, (b - a) / length, light);
         }
+    }
+}
+
+impl CellPart {
+    fn cubic(&self) -> Cubic {
+        Cubic::of_cell(self.corners, self.start, self.rise)
     }
 }
 

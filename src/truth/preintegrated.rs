@@ -11,6 +11,7 @@ use super::exact::Absorber;
 use crate::error::{Error, Result};
 use crate::math::interpolate::mix;
 use crate::math::opacity::corrected_opacity;
+use crate::projection;
 use crate::scene::settings::{Alpha, Filter, Offset};
 use crate::scene::transfer::Knot;
 use crate::scene::{Scene, TransferFunction};
@@ -33,7 +34,7 @@ pub fn nodes(scene: &Scene) -> usize {
 /// Whether a scene may be classified by a table, where it asks for it.
 ///
 /// # Errors
-/// When it takes samples in the middle of steps or those of the nearest voxels, has cells without values, or a transfer
+/// When it shows values and no colours, takes samples in the middle of steps or those of the nearest voxels, has cells without values, or a transfer
 /// function of more points than [`MOST_KNOTS`].
 pub fn check(scene: &Scene) -> Result<()> {
     let (sampling, knots) = (&scene.settings.sampling, scene.transfer.knots().len());
@@ -42,6 +43,10 @@ pub fn check(scene: &Scene) -> Result<()> {
     };
     match () {
         () if !sampling.preintegrates() => Ok(()),
+        () if projection::of(&scene.settings).shows_values() => refuse(
+            format!("makes colours of values, and the projection {} shows values", scene.settings.projection.kind),
+            "use --projection composite, or --classification post",
+        ),
         () if sampling.offset != Offset::Left => {
             refuse("takes values at both ends of a step, not in its middle".into(), "use --offset left")
         }

@@ -1,7 +1,6 @@
 //! Twin of `glsl/fused.frag`: a main pass that marks where the ray goes on [Thesis §5.7].
 
 use super::{Effect, Pixel, Twin};
-use crate::math::opacity::composite;
 use crate::scene::settings::Accumulate;
 
 /// More than a blend unit may take from an opacity below 1, or add to it, in a target of that format: some sixteen
@@ -15,7 +14,7 @@ pub fn blend_rounding(accumulate: Accumulate) -> f32 {
     }
 }
 
-/// Puts the segment of main pass `pass` under what the pixel has already, where the ray has work there, and marks the
+/// Joins the segment of main pass `pass` with what the pixel has already, where the ray has work there, and marks the
 /// section in which it next has, or death.
 pub fn fused(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let mut next = if twin.saturated(pixel) { twin.passes } else { twin.next_section(pixel, pass) };
@@ -23,7 +22,7 @@ pub fn fused(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     if next == pass {
         let (segment, found) = twin.segment_color(pixel, pass);
         effect = found;
-        pixel.accumulated = composite(pixel.accumulated, segment);
+        pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
         let certain = f64::from(blend_rounding(twin.scene.settings.image.accumulate));
         let dead = twin.saturated_by(pixel, certain);
         next = if dead { twin.passes } else { twin.next_section(pixel, pass + 1) };

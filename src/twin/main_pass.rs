@@ -1,11 +1,10 @@
 //! Twin of `glsl/main_pass.frag`: ray traversal [KW03 §2.1].
 
 use super::{Effect, Pixel, Twin};
-use crate::math::opacity::composite;
 
-/// Puts the segment of main pass `pass` under what the pixel has already.
+/// Joins the segment of main pass `pass` with what the pixel has already.
 pub fn main_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let (segment, effect) = twin.segment_color(pixel, pass);
-    pixel.accumulated = composite(pixel.accumulated, segment);
+    pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
     effect
 }

@@ -9,11 +9,13 @@ pub mod near_neighbor;
 pub mod samples;
 pub mod section;
 pub mod segment;
+pub mod start;
 pub mod termination;
 
 use glam::DVec3;
 
 use crate::math::ray::ViewRays;
+use crate::projection::{Levels, Projection};
 use crate::scene::Scene;
 use crate::structure::blocks::Blocks;
 use crate::structure::grid::DistanceField;
@@ -33,6 +35,9 @@ pub struct Twin<'a> {
     pub blocks: Option<&'a Blocks>,
     /// Of pre-integrated classification.
     pub table: Option<&'a PreintegratedTable>,
+    pub projection: &'static Projection,
+    /// What its values are held against, as x.
+    pub levels: Levels,
 }
 
 /// One pixel of every image of the frame.
@@ -64,7 +69,7 @@ fn stored(value: DVec3) -> DVec3 {
 pub enum Effect {
     /// Nothing that shows.
     Silent,
-    /// It took a sample of non-zero opacity.
+    /// It took a sample of non-zero opacity, or, where values are shown, one that changes the pixel.
     Contributed,
 }
 

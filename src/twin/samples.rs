@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Pixel, Twin};
+use crate::projection::Ends;
 
 /// The GPU's count of samples comes from the stored length and an f32 step. Within this of a whole number (relative to
 /// the length in steps: two roundings and that of the offset, of 2^-24 each) the two may differ by one.
@@ -105,13 +106,27 @@ impl Twin<'_> {
         (first, (first + m).min(self.sample_count(pixel)))
     }
 
-    /// Whether the ray's opacity is above the threshold T; undecided where rounding may decide.
+    /// Whether the ray needs no further samples; undecided where rounding may decide.
     pub fn saturated(&self, pixel: &mut Pixel) -> bool {
         self.saturated_by(pixel, 0.0)
     }
 
-    /// Whether it is above T by more than `margin`.
+    /// Whether it needs none, where that is an opacity above T, by more than `margin`.
     pub fn saturated_by(&self, pixel: &mut Pixel, margin: f64) -> bool {
+        match self.projection.ends {
+            Ends::Opaque => self.opaque_by(pixel, margin),
+            // Samples stop at the end to the bit, and one that f32 may have on its other side is undecided itself.
+            Ends::Reached => {
+                let [value, ..] = pixel.accumulated;
+                let end = self.projection.grey(self.levels.end);
+                self.projection.blend.apply(pixel.accumulated, end)[0] == value
+            }
+            Ends::Never(_) => false,
+        }
+    }
+
+    /// Whether the ray's opacity is above the threshold T by more than `margin`.
+    fn opaque_by(&self, pixel: &mut Pixel, margin: f64) -> bool {
         // The sum of up to some thousand rounded samples.
         const ROUNDING: f64 = 1e-5;
         let threshold = self.scene.settings.sampling.termination + margin;

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::samples::FACE_ROUNDING;
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::{nearest, trilinear};
-use crate::math::opacity::{composite, corrected_opacity};
+use crate::math::opacity::corrected_opacity;
+use crate::projection::{Ends, OfValues, SampleWeight};
 use crate::scene::settings::{Alpha, Filter, Last};
 use crate::truth::preintegrated::{PreintegratedTable, part_of};
 
@@ -18,13 +19,10 @@ const PLACE_ROUNDING: f64 = 1e-6;
 impl Twin<'_> {
     /// Premultiplied colour of sample `i`.
     fn shade_sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
-        let (field, transfer, sampling) = (&self.scene.field, &self.scene.transfer, &self.scene.settings.sampling);
+        let (transfer, sampling) = (&self.scene.transfer, &self.scene.settings.sampling);
         let voxel = self.voxel(self.sample_position(pixel, i));
-        if let Some(holes) = &field.holes {
-            let ([nx, ny, _], [x, y, z]) = (field.cells(), field.cell_at(voxel));
-            if holes[(z * ny + y) * nx + x] {
-                return [0.0; 4];
-            }
+        if self.in_hole(voxel) {
+            return [0.0; 4];
         }
         let value = self.value(pixel, voxel);
         let [r, g, b, a] = transfer.evaluate(value);
@@ -34,6 +32,36 @@ impl Twin<'_> {
             Alpha::Paper => (a * steps).min(1.0),
         };
         [r * alpha, g * alpha, b * alpha, alpha]
+    }
+
+    /// Whether `voxel` lies in a cell that has no values.
+    fn in_hole(&self, voxel: DVec3) -> bool {
+        let field = &self.scene.field;
+        let ([nx, ny, _], [x, y, z]) = (field.cells(), field.cell_at(voxel));
+        field.holes.as_ref().is_some_and(|holes| holes[(z * ny + y) * nx + x])
+    }
+
+    /// What a segment holds before its first sample.
+    pub(super) fn no_sample(&self) -> [f64; 4] {
+        let values = self.projection.values.as_ref();
+        values.map_or([0.0; 4], |values| self.projection.grey((values.nothing)(&self.levels)))
+    }
+
+    /// What sample `i` brings to its ray, where values are shown.
+    fn value_sample(&self, values: &OfValues, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        let voxel = self.voxel(self.sample_position(pixel, i));
+        if self.in_hole(voxel) {
+            return self.no_sample();
+        }
+        let sampling = &self.scene.settings.sampling;
+        let all = match sampling.last {
+            Last::Partial => self.steps(pixel),
+            Last::Full => f64::from(self.sample_count(pixel)),
+        };
+        let lengths = sampling.step / self.scene.transfer.reference;
+        let weight = SampleWeight { steps: self.extent_of_sample(pixel, i), all, lengths };
+        let value = self.value(pixel, voxel);
+        self.projection.grey((values.part)(value, &self.levels, &weight))
     }
 
     /// Steps that sample `i` stands for.
@@ -51,8 +79,17 @@ impl Twin<'_> {
             return self.nearest_value(pixel, voxel);
         }
         let value = trilinear(&field.values, field.dims(), voxel);
-        pixel.undecided |= self.scene.transfer.jumps().any(|x| self.may_cross(x, value, voxel));
+        pixel.undecided |= self.jumps_near(|x| self.may_cross(x, value, voxel));
         value
+    }
+
+    /// Whether `near` holds for any value at which what is made of values, or whether a ray ends, changes at once.
+    fn jumps_near(&self, near: impl Fn(f64) -> bool) -> bool {
+        match (self.projection.values.is_some(), self.projection.ends) {
+            (false, _) => self.scene.transfer.jumps().any(near),
+            (true, Ends::Reached) => near(self.levels.end),
+            (true, _) => false,
+        }
     }
 
     /// The value of the voxel nearest to `voxel`; undecided where f32 may take another, or see it on the other side of a
@@ -66,7 +103,7 @@ impl Twin<'_> {
         };
         pixel.undecided |= (0..8).any(|n| nearest(&field.values, field.dims(), beside(n)) != value);
         let near = |x: f64| (value - x).abs() < VALUE_ROUNDING * value.abs();
-        pixel.undecided |= self.scene.transfer.jumps().any(near);
+        pixel.undecided |= self.jumps_near(near);
         value
     }
 
@@ -89,20 +126,25 @@ impl Twin<'_> {
         off < VALUE_ROUNDING * value.abs() + PLACE_ROUNDING * spread
     }
 
-    /// Premultiplied colour of the ray's segment for main pass `pass`, and whether it took a sample that shows.
+    /// What the ray's segment for main pass `pass` brings to the pixel, and whether it took a sample that shows.
     pub fn segment_color(&self, pixel: &mut Pixel, pass: u32) -> ([f64; 4], Effect) {
         let (first, end) = self.segment(pixel, pass);
-        let mut segment = [0.0; 4];
+        let mut segment = self.no_sample();
         let mut effect = Effect::Silent;
         for i in first..end {
-            let sample = match self.table {
-                Some(table) => self.shade_span(table, pixel, i),
-                None => self.shade_sample(pixel, i),
+            let sample = match (&self.projection.values, self.table) {
+                (Some(values), _) => self.value_sample(values, pixel, i),
+                (None, Some(table)) => self.shade_span(table, pixel, i),
+                (None, None) => self.shade_sample(pixel, i),
             };
-            if sample[3] > 0.0 {
+            if !self.projection.shows_values() && sample[3] > 0.0 {
                 effect = Effect::Contributed;
             }
-            segment = composite(segment, sample);
+            segment = self.projection.blend.apply(segment, sample);
+        }
+        let changes = || self.projection.blend.apply(pixel.accumulated, segment) != pixel.accumulated;
+        if self.projection.shows_values() && changes() {
+            effect = Effect::Contributed;
         }
         (segment, effect)
     }

@@ -37,6 +37,7 @@ mod version;
 
 pub use ash::vk;
 
+pub use crate::math::blend::Blend;
 pub use buffer::{Buffer, BufferInfo, Place};
 pub use commands::Commands;
 pub use descriptor::{Bound, DescriptorSet};
@@ -47,7 +48,7 @@ pub use info::{DeviceInfo, DeviceKind, QueueFamily};
 pub use instance::Instance;
 pub use layout::Layout;
 pub use pick::pick;
-pub use pipeline::{Blend, ComputePipeline, DepthState, GraphicsPipeline, GraphicsPipelineInfo};
+pub use pipeline::{ComputePipeline, DepthState, GraphicsPipeline, GraphicsPipelineInfo};
 pub use query::{QueryKind, QueryPool};
 pub use queue::Queue;
 pub use recorded::Recorded;

@@ -13,6 +13,7 @@ use super::render_pass::{RenderPass, Role};
 use super::shader::ShaderModule;
 use super::stages::Stages;
 use crate::error::{Error, Result};
+use crate::math::blend::Blend;
 
 /// What happens between a fragment's depth and the stored one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,15 +31,6 @@ impl DepthState {
     pub const OFF: Self = Self { test: false, write: false, compare: vk::CompareOp::ALWAYS, bounds: false };
 }
 
-/// How a fragment's colour goes into the attachments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Blend {
-    Replace,
-    /// Front to back, premultiplied: `dst += (1 - dst.a) * src`. An attachment whose format has no alpha is
-    /// replaced.
-    Over,
-}
-
 /// What a graphics pipeline is made from. Triangle lists, both faces; viewport, scissor and depth bounds are
 /// set while recording.
 pub struct GraphicsPipelineInfo<'a> {
@@ -54,6 +46,7 @@ pub struct GraphicsPipelineInfo<'a> {
     pub depth: DepthState,
     /// Fragments pass where the stencil attachment holds this value, which stays; `None`: no stencil test.
     pub stencil: Option<u8>,
+    /// How a fragment's colour goes into the attachments; one whose format has no alpha is replaced.
     pub blend: Blend,
 }
 
@@ -203,29 +196,36 @@ fn check_depth(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<()> {
 
 fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::PipelineColorBlendAttachmentState>> {
     let colors = info.render_pass.info.attachments.iter().filter(|one| one.role.is_color());
-    let over: Vec<_> = colors.map(|one| info.blend == Blend::Over && has_alpha(one.format)).collect();
-    if over.windows(2).any(|pair| pair[0] != pair[1]) && device.features.independent_blend != vk::TRUE {
+    let blended: Vec<_> = colors.map(|one| info.blend != Blend::Replace && has_alpha(one.format)).collect();
+    if blended.windows(2).any(|pair| pair[0] != pair[1]) && device.features.independent_blend != vk::TRUE {
         return Err(Error::device(
             info.name,
             format!("{} blends all attachments alike (no independentBlend)", device.info.name),
             "choose another device",
         ));
     }
-    let (source, target) = (vk::BlendFactor::ONE_MINUS_DST_ALPHA, vk::BlendFactor::ONE);
+    let target = vk::BlendFactor::ONE;
+    // The greater and the lesser are found without factors.
+    let (source, operation) = match info.blend {
+        Blend::Replace | Blend::Add => (vk::BlendFactor::ONE, vk::BlendOp::ADD),
+        Blend::Over => (vk::BlendFactor::ONE_MINUS_DST_ALPHA, vk::BlendOp::ADD),
+        Blend::Max => (vk::BlendFactor::ONE, vk::BlendOp::MAX),
+        Blend::Min => (vk::BlendFactor::ONE, vk::BlendOp::MIN),
+    };
     let written = match info.fragment {
         Some(_) => vk::ColorComponentFlags::RGBA,
         None => vk::ColorComponentFlags::empty(),
     };
-    let state = |over| {
+    let state = |blended| {
         vk::PipelineColorBlendAttachmentState::default()
-            .blend_enable(over)
+            .blend_enable(blended)
             .src_color_blend_factor(source)
             .dst_color_blend_factor(target)
-            .color_blend_op(vk::BlendOp::ADD)
+            .color_blend_op(operation)
             .src_alpha_blend_factor(source)
             .dst_alpha_blend_factor(target)
-            .alpha_blend_op(vk::BlendOp::ADD)
+            .alpha_blend_op(operation)
             .color_write_mask(written)
     };
-    Ok(over.into_iter().map(state).collect())
+    Ok(blended.into_iter().map(state).collect())
 }

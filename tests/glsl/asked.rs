@@ -11,6 +11,7 @@ use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::probe::{Case, rig};
+use depthleap::projection::{PROJECTIONS, Projection};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{Classification, Filter, MethodName};
@@ -32,11 +33,12 @@ struct Like {
     /// Some cells show nothing.
     skips: bool,
     cell: u32,
+    projection: &'static Projection,
 }
 
 fn likes() -> Vec<Like> {
     let bit = |bits: u32, of: u32| bits >> of & 1 == 1;
-    let all = (0..1 << 7).map(|bits| Like {
+    let each = move |bits: u32, projection: &'static Projection| Like {
         preintegrated: bit(bits, 0),
         nearest: bit(bits, 1),
         holes: bit(bits, 2),
@@ -44,9 +46,12 @@ fn likes() -> Vec<Like> {
         ends: bit(bits, 4),
         skips: bit(bits, 5),
         cell: if bit(bits, 6) { 4 } else { 1 },
-    });
-    // A table stands for values between two samples, which neither labels nor holes have.
-    all.filter(|like| !(like.preintegrated && (like.nearest || like.holes))).collect()
+        projection,
+    };
+    let all = PROJECTIONS.into_iter().flat_map(|row| (0..1 << 7).map(move |bits| each(bits, row)));
+    // A table makes colours of the values between two samples, which neither labels nor holes have.
+    let refused = |like: &Like| like.nearest || like.holes || like.projection.shows_values();
+    all.filter(|like| !(like.preintegrated && refused(like))).collect()
 }
 
 fn scene(method: MethodName, like: Like) -> Scene {
@@ -54,6 +59,7 @@ fn scene(method: MethodName, like: Like) -> Scene {
     settings.volume.builtin = Some("shells:8".to_owned());
     settings.image.size = [8, 8];
     settings.method.name = method;
+    settings.projection.kind = like.projection.name();
     settings.method.cell = like.cell;
     settings.method.planner = like.planner;
     settings.sampling.samples_per_pass = 4;
@@ -104,6 +110,8 @@ pub fn plans() -> Vec<(String, Plan)> {
 pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
     let steps = plans.iter().flat_map(|(_, plan)| &plan.steps);
     let planned = steps.filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
-    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader(), Shader::new("box.vert", [])]);
+    // What values begin with is drawn for no projection of colours.
+    let plain = ["box.vert", "start.frag"].map(|file| Shader::new(file, []));
+    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]).chain(plain);
     planned.chain(others).collect()
 }

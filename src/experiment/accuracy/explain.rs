@@ -1,15 +1,17 @@
 //! The order that theory gives, and why an error may fall faster, slower or not at all.
 
 use crate::method;
+use crate::projection::{self, Ends};
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, VolumeTexture};
 
-/// Whether nothing shows on the six faces of the volume.
+/// Whether nothing shows on the six faces of the volume: no opacity, or, where values are shown, x is 0.
 fn vanishes_at_faces(scene: &Scene) -> bool {
     let (field, dims) = (&scene.field, scene.field.dims());
+    let values = projection::of(&scene.settings).shows_values();
     let visible = |x: usize, y: usize, z: usize| {
         let value = f64::from(field.values[(z * dims[1] + y) * dims[0] + x]);
-        scene.transfer.visible(value, value)
+        if values { value != 0.0 } else { scene.transfer.visible(value, value) }
     };
     let last = dims.map(|n| n - 1);
     let face = |a: usize, b: usize, at: &dyn Fn(usize, usize) -> [usize; 3]| {
@@ -28,6 +30,10 @@ fn vanishes_at_faces(scene: &Scene) -> bool {
 /// The order of the sum in the step, of a smooth scene and a ray that is not ended early.
 pub fn expected_order(scene: &Scene) -> Option<f64> {
     let sampling = &scene.settings.sampling;
+    let projection = projection::of(&scene.settings);
+    if projection.shows_values() {
+        return projection.order_of_values(&scene.settings, vanishes_at_faces(scene));
+    }
     let jumps = scene.transfer.jumps().next().is_some();
     if sampling.alpha == Alpha::Paper || jumps && !sampling.preintegrates() {
         return None;
@@ -54,9 +60,14 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
             remarks.push(words.to_owned());
         }
     };
-    let vanishes = vanishes_at_faces(scene);
+    let row = projection::of(&scene.settings);
+    if let Some(values) = &row.values {
+        say(true, values.remark);
+    }
+    let colors = !row.shows_values();
+    let vanishes = vanishes_at_faces(scene) && colors;
     say(
-        sampling.alpha == Alpha::Paper,
+        colors && sampling.alpha == Alpha::Paper,
         "opacities are taken as they stand, so that the sum grows with the number of samples and has no limit",
     );
     say(
@@ -68,16 +79,22 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
         "what lies between the entries of the pre-integrated table is interpolated, an error that does not fall with the step",
     );
     say(
-        !vanishes && (sampling.offset == Offset::Midpoint || sampling.preintegrates()) && sampling.last == Last::Full,
+        colors
+            && !vanishes
+            && (sampling.offset == Offset::Midpoint || sampling.preintegrates())
+            && sampling.last == Last::Full,
         "the volume is filled up to its faces, and the last sample stands for a whole step: order 1 instead of 2",
     );
     say(
-        scene.transfer.jumps().next().is_some() && !sampling.preintegrates(),
+        colors && scene.transfer.jumps().next().is_some() && !sampling.preintegrates(),
         "the transfer function jumps: where a ray crosses the jump the error is of the first order in the step, and as large as \
          the jump where it only touches it",
     );
     say(
-        method::find(method).is_some_and(|row| row.ends_rays) && sampling.termination < 1.0 && opaque,
+        row.ends == Ends::Opaque
+            && method::find(method).is_some_and(|row| row.ends_rays)
+            && sampling.termination < 1.0
+            && opaque,
         &format!("rays end at an opacity of {}: what lies behind is missing, whatever the step", sampling.termination),
     );
     say(

@@ -13,6 +13,7 @@ use crate::measure::runner::{Checked, Effort, Runner, view_in_words};
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Measured, compare};
 use crate::method;
+use crate::projection;
 use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::Scene;
@@ -73,11 +74,12 @@ impl AccuracyJob {
         let own = Way::of(settings);
         let asked = Asked { checked: &checked, scene: &scene, own, truth: &truth, opaque };
         let mut ways = if self.full { Way::all(own) } else { Way::some(own) };
-        // Some scenes cannot be classified by a table; one that asks for it is refused.
+        // Some scenes cannot be classified by a table; one that asks for it is refused. Values have no opacity.
+        let values = projection::of(settings).shows_values();
         ways.retain(|way| {
             let mut scene = scene.clone();
             way.apply(&mut scene.settings);
-            *way == own || preintegrated::check(&scene).is_ok()
+            *way == own || (preintegrated::check(&scene).is_ok() && !(values && way.alpha != own.alpha))
         });
         let mut curves = Vec::new();
         for (i, way) in ways.iter().enumerate() {

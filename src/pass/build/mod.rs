@@ -67,8 +67,8 @@ pub static RECIPES: [Recipe; 6] = [
         },
         host: Some(|facts| {
             let texels = Texels::of(facts.scene);
-            let transfer = texels.transfer(&facts.scene.transfer);
-            let build = |lookup| structure::build(&facts.scene.field, &texels.values, &transfer, &lookup).bytes;
+            let shown = texels.shown(facts.scene);
+            let build = |lookup| structure::build(&facts.scene.field, &texels.values, &shown, &lookup).bytes;
             facts.lookup.map(build).unwrap_or_default()
         }),
     },

@@ -15,6 +15,7 @@ mod image;
 mod key;
 mod method;
 mod parse;
+mod projection;
 mod sampling;
 mod section;
 mod transfer;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Result;
 
 pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
+pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
 pub use image::Accumulate;
 pub use key::Key;
@@ -110,6 +112,7 @@ sections! {
     transfer: TransferSettings, TransferOptions;
     camera: CameraSettings, CameraOptions;
     image: ImageSettings, ImageOptions;
+    projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;
     method: MethodSettings, MethodOptions;
 }

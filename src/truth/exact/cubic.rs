@@ -39,6 +39,19 @@ impl Cubic {
         (3.0 * c3 * s + 2.0 * c2) * s + c1
     }
 
+    /// The least and the greatest value.
+    pub fn extremes(&self) -> [f64; 2] {
+        let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+        let ends = wider([self.at(0.0); 2], self.at(1.0));
+        self.turns().into_iter().flatten().map(|turn| self.at(turn)).fold(ends, wider)
+    }
+
+    /// The mean value.
+    pub fn mean(&self) -> f64 {
+        let [c0, c1, c2, c3] = self.0;
+        c0 + c1 / 2.0 + c2 / 3.0 + c3 / 4.0
+    }
+
     pub fn is_constant(&self) -> bool {
         self.0[1..] == [0.0; 3]
     }

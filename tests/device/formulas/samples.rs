@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use depthleap::projection::{self, Levels};
 use depthleap::scene::Scene;
 use depthleap::scene::settings::Offset;
 use depthleap::shared::Frame;
@@ -104,7 +105,16 @@ fn cases(device: &Arc<Device>, evaluator: &Evaluator, scene: &Scene) -> Vec<Case
 }
 
 fn twin(scene: &Scene) -> Twin<'_> {
-    Twin { scene, rays: scene.camera.rays([ROW, ROWS]).unwrap(), passes: 1, distance: None, blocks: None, table: None }
+    Twin {
+        scene,
+        rays: scene.camera.rays([ROW, ROWS]).unwrap(),
+        passes: 1,
+        distance: None,
+        blocks: None,
+        table: None,
+        projection: projection::of(&scene.settings),
+        levels: Levels::default(),
+    }
 }
 
 fn count_of_samples_is_its_twin(device: &Arc<Device>) {

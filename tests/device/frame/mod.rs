@@ -11,6 +11,7 @@ mod matrix;
 mod matrix_scenes;
 mod orbit;
 mod planner;
+mod projections;
 mod recorded;
 pub mod scenes;
 mod textures;
@@ -28,6 +29,7 @@ pub fn tests() -> Vec<Test> {
         planner::tests(),
         recorded::tests(),
         textures::tests(),
+        projections::tests(),
     ]
     .into_iter()
     .flatten()

@@ -2,6 +2,7 @@
 
 mod depth;
 mod optical;
+mod projection;
 mod sampling;
 mod transfer;
 mod traps;
@@ -19,6 +20,7 @@ pub fn battery() -> Vec<StabilityCase> {
         views::cases(),
         sampling::cases(),
         depth::cases(),
+        projection::cases(),
         traps::cases(),
     ]
     .into_iter()

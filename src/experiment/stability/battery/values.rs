@@ -15,7 +15,7 @@ fn cube(voxels: Voxels) -> Option<Volume> {
 }
 
 /// Values from 0 to 1 that differ from voxel to voxel.
-fn pattern(i: usize) -> f64 {
+pub(super) fn pattern(i: usize) -> f64 {
     let [x, y, z] = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
     ((x * 5 + y * 3 + z * 7) % 23) as f64 / 22.0
 }
@@ -24,7 +24,7 @@ fn floats(value: impl Fn(usize) -> f64) -> Option<Volume> {
     cube(Voxels::F32((0..SIDE.pow(3)).map(|i| value(i) as f32).collect()))
 }
 
-fn doubles(value: impl Fn(usize) -> f64) -> Option<Volume> {
+pub(super) fn doubles(value: impl Fn(usize) -> f64) -> Option<Volume> {
     cube(Voxels::F64((0..SIDE.pow(3)).map(value).collect()))
 }
 

@@ -1,0 +1,12 @@
+//! Classification by the transfer function.
+
+use crate::part::rows::{Feature, Hook};
+
+/// Colours and opacities of values; without, samples have nothing but their value.
+pub const CLASSIFICATION: Feature = Feature {
+    without: Some("VALUES"),
+    ..Feature::at(Hook::Sample, "classification", |context| match context.projection().shows_values() {
+        true => Err(format!("{} shows values, not colours", context.projection().name).into()),
+        false => Ok(()),
+    })
+};

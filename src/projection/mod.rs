@@ -1,0 +1,64 @@
+//! How the samples of a ray become its pixel: [`PROJECTIONS`] is the one list.
+//!
+//! To add one: a row, in a file here with its `mod` line and its place in [`PROJECTIONS`], and a case in
+//! `glsl/shared/projection.glsl` under the row's code. What a row of values says of a sample in f64 is the twin of that case.
+//! Methods, passes and experiments ask the row, and tests go through all rows; add the closed forms of the new one to
+//! `tests/projections.rs`, and a golden plan.
+
+mod composite;
+mod row;
+mod shown;
+
+pub use composite::COMPOSITE;
+pub use row::{Ends, Levels, Met, OfValues, Projection, SampleWeight, ValueSpan};
+pub use shown::Shown;
+
+use std::str::FromStr;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use crate::scene::Settings;
+use crate::scene::settings::ProjectionName;
+
+/// Every projection, in the order of tables and of the help.
+pub const PROJECTIONS: [&Projection; 1] = [&COMPOSITE];
+
+/// The projection of a scene with these settings. Names are read here, so that every one has its row.
+pub fn of(settings: &Settings) -> &'static Projection {
+    let named = |row: &&Projection| row.name == settings.projection.kind.name();
+    PROJECTIONS.into_iter().find(named).unwrap_or(&COMPOSITE)
+}
+
+/// The names of all projections, in their order.
+const NAMES: [&str; PROJECTIONS.len()] = {
+    let mut names = [""; PROJECTIONS.len()];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = PROJECTIONS[i].name;
+        i += 1;
+    }
+    names
+};
+
+impl<'de> Deserialize<'de> for ProjectionName {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        name.parse().map_err(|_| D::Error::unknown_variant(&name, &NAMES))
+    }
+}
+
+impl FromStr for ProjectionName {
+    type Err = String;
+
+    fn from_str(name: &str) -> std::result::Result<Self, String> {
+        let row = PROJECTIONS.iter().find(|row| row.name == name);
+        row.map(|row| row.name()).ok_or_else(|| format!("is not one of {}", NAMES.join(", ")))
+    }
+}
+
+impl Default for ProjectionName {
+    fn default() -> Self {
+        COMPOSITE.name()
+    }
+}

@@ -1,0 +1,55 @@
+//! What shows among values: what the transfer function makes visible, or what counts for a projection of values.
+
+use super::of;
+use crate::scene::texture::TextureMap;
+use crate::scene::{Scene, TransferFunction};
+
+/// What shows among values of one unit: x, or the texture's.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shown {
+    /// Where the transfer function has any opacity.
+    Visible(TransferFunction),
+    /// Values in these closed intervals, rising and apart.
+    Within(Vec<[f64; 2]>),
+}
+
+impl Shown {
+    /// What shows of a scene, in the unit that `map` leads to.
+    pub fn of(scene: &Scene, map: TextureMap) -> Self {
+        let projection = of(&scene.settings);
+        match &projection.values {
+            None => Self::Visible(scene.transfer.mapped(|x| map.value(x))),
+            Some(values) => Self::Within((values.counting)(&projection.levels(scene, map))),
+        }
+    }
+
+    /// What shows of a scene, among x.
+    pub fn in_x(scene: &Scene) -> Self {
+        Self::of(scene, TextureMap::IDENTITY)
+    }
+
+    /// Whether anything in `[low, high]` shows.
+    pub fn anywhere(&self, low: f64, high: f64) -> bool {
+        match self {
+            Self::Visible(transfer) => transfer.visible(low, high),
+            Self::Within(intervals) => intervals.iter().any(|[from, to]| low <= *to && high >= *from),
+        }
+    }
+
+    /// The least and the greatest value at which what shows may change.
+    pub fn turns(&self) -> [f64; 2] {
+        match self {
+            Self::Visible(transfer) => [0, transfer.knots().len() - 1].map(|i| transfer.knots()[i].x),
+            Self::Within(intervals) => {
+                let ends = || intervals.iter().flatten().copied().filter(|end| end.is_finite());
+                [ends().fold(f64::INFINITY, f64::min), ends().fold(f64::NEG_INFINITY, f64::max)]
+            }
+        }
+    }
+}
+
+impl From<&TransferFunction> for Shown {
+    fn from(transfer: &TransferFunction) -> Self {
+        Self::Visible(transfer.clone())
+    }
+}
