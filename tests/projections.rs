@@ -7,7 +7,7 @@ use depthleap::method;
 use depthleap::plan::{self, Plan};
 use depthleap::projection::{AVERAGE, MINIP, MIP, Projection, XRAY};
 use depthleap::read;
-use depthleap::scene::settings::{Classification, Filter, Last, Offset, Settings, VolumeTexture};
+use depthleap::scene::settings::{Accumulate, Classification, Filter, Last, Offset, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Volume};
 use depthleap::structure::cells;
@@ -205,6 +205,21 @@ fn plans_leave_the_transfer_function_out() {
         assert!(text.contains("classification left out"), "{text}");
         assert!(text.contains("start") && !text.contains("transfer"), "{text}");
         assert!(plan.pixel_error > 0.0, "{}", row.name);
+    }
+}
+
+#[test]
+fn values_that_a_format_cannot_hold_are_named() {
+    let warned = |row: &Projection, value: f64, accumulate: Accumulate| {
+        let scene = scene(row, |_| value, |s| s.image.accumulate = accumulate);
+        plan::warnings(&scene, &planned(&scene)).iter().any(|warning| warning.contains("holds"))
+    };
+    for row in ALL {
+        assert!(warned(row, -0.5, Accumulate::Rgba8), "{}", row.name);
+        assert!(!warned(row, -0.5, Accumulate::Rgba16f), "{}", row.name);
+        assert!(!warned(row, 1e9, Accumulate::Rgba32f), "{}", row.name);
+        // A sum over the way is above 1 where no value is.
+        assert_eq!(warned(row, 0.5, Accumulate::Rgba8), row.name == "xray", "{}", row.name);
     }
 }
 
