@@ -15,7 +15,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [DENSE], [ENDLESS]
+//@takes [DENSE], [ENDLESS], [VALUES]
 
 // RES comes first.
 #define MARK_LOCATION 1
@@ -32,7 +32,7 @@
 #include "shared/projection.glsl"
 #ifdef PREINTEGRATED
 #include "shared/preintegrated.glsl"
-#else
+#elif !defined(VALUES)
 #include "shared/transfer.glsl"
 #endif
 #include "shared/segment.glsl"

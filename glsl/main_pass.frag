@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
+//@takes [VALUES]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
@@ -16,7 +17,7 @@
 #include "shared/projection.glsl"
 #ifdef PREINTEGRATED
 #include "shared/preintegrated.glsl"
-#else
+#elif !defined(VALUES)
 #include "shared/transfer.glsl"
 #endif
 #include "shared/segment.glsl"

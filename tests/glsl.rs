@@ -159,7 +159,7 @@ fn compiler_gives_the_words_of_the_program() {
 #[test]
 fn fault_in_a_shader_is_placed_by_file_line_and_column() {
     let copy = copy();
-    let line = alter(copy.path(), "main_pass.frag", "vec4 segment = vec4(0.0);", "vec4 segment = vec4(nothing);");
+    let line = alter(copy.path(), "main_pass.frag", "vec4 segment = no_sample();", "vec4 segment = vec4(nothing);");
     let text = compiled(copy.path(), "main_pass.frag", &[]).unwrap_err().text;
     let file = copy.path().join("main_pass.frag");
     // The column is that of the word that is not known.

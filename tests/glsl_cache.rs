@@ -117,7 +117,7 @@ fn key_stands_for_all_that_a_module_is_made_from() {
     let entry = of(ENTRY, &[]);
     // One of them is included under a condition only.
     for (file, from) in [
-        ("main_pass.frag", "vec4 segment = vec4(0.0);"),
+        ("main_pass.frag", "vec4 segment = no_sample();"),
         ("shared/preintegrated.glsl", "binding = 5"),
         ("shared/opacity.glsl", "float s = x / (2.0 + x);"),
     ] {

@@ -1,8 +1,8 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
-// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl), opacity.glsl and
-// projection.glsl.
+// Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
+// opacity.glsl and projection.glsl.
 
-#ifndef PREINTEGRATED
+#if !defined(PREINTEGRATED) && !defined(VALUES)
 // Bring opacities from the reference length to the step.
 layout(constant_id = 4) const bool CORRECT_OPACITY = false;
 #endif
@@ -30,6 +30,16 @@ vec4 segment_color(Ray ray, uint pass) {
     return segment;
 }
 #else
+#ifdef VALUES
+// What sample `i` brings to its ray.
+vec4 shade_sample(Ray ray, uint i) {
+    if (in_hole(ray, i)) {
+        return no_sample();
+    }
+    float all = LAST_PARTIAL ? ray.steps : float(ray.samples);
+    return value_sample(sample_volume(ray, steps_to(i)), extent_of_sample(ray, i), all);
+}
+#else
 // Premultiplied colour of sample `i`.
 vec4 shade_sample(Ray ray, uint i) {
     if (in_hole(ray, i)) {
@@ -41,8 +51,9 @@ vec4 shade_sample(Ray ray, uint i) {
     color.a = CORRECT_OPACITY ? corrected_opacity(color.a, clear, frame.exponent * steps) : min(color.a * steps, 1.0);
     return vec4(color.rgb * color.a, color.a);
 }
+#endif
 
-// Premultiplied colour of the ray's segment for main pass `pass`; transparent where the ray has left the volume.
+// What the ray's segment for main pass `pass` brings to the pixel; nothing where the ray has left the volume.
 vec4 segment_color(Ray ray, uint pass) {
     vec4 segment = no_sample();
     uint first = pass * SAMPLES_PER_PASS;

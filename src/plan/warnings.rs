@@ -4,15 +4,17 @@ use super::Plan;
 use crate::projection;
 use crate::scene::Scene;
 use crate::scene::range::RangeEnd;
-use crate::scene::settings::{Filter, VolumeTexture};
+use crate::scene::settings::{Accumulate, Filter, VolumeTexture};
 use crate::scene::texture::{TextureChoice, Within};
 use crate::structure::cells::any_interesting;
 
-/// The warnings of a plan: of the volume's file, of a picture that is bound to be empty, of an imprecise texture.
+/// The warnings of a plan: of the volume's file, of a picture that is bound to be empty, of an imprecise texture, of values
+/// that the picture's format cannot hold.
 pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
+    warnings.extend(plan.method.on_device.then(|| cut_off(scene, plan)).flatten());
     warnings
 }
 
@@ -120,6 +122,30 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
         Within(settings.volume.precision)
     ))
 }
+
+/// That values are shown which the format of the picture may not hold.
+fn cut_off(scene: &Scene, plan: &Plan) -> Option<String> {
+    let values = projection::of(&scene.settings).values.as_ref()?;
+    let (name, [least, greatest]) = match scene.settings.image.accumulate {
+        Accumulate::Rgba8 => ("rgba8", [0.0, 1.0]),
+        Accumulate::Rgba16f => ("rgba16f", [-LARGEST_HALF, LARGEST_HALF]),
+        Accumulate::Rgba32f => return None,
+    };
+    let sampling = &scene.settings.sampling;
+    let lengths = f64::from(plan.view.longest_samples) * sampling.step / scene.transfer.reference;
+    let times = (values.magnification)(lengths);
+    let [low, high] = scene.field.extremes().map(|x| f64::from(x) * times);
+    (low < least || high > greatest).then(|| {
+        format!(
+            "the projection {} may come to values from {low} to {high}, and --accumulate {name} holds {least} to {greatest}; \
+             use rgba32f, or another --range",
+            scene.settings.projection.kind
+        )
+    })
+}
+
+/// The largest number of 16 bits.
+const LARGEST_HALF: f64 = 65504.0;
 
 /// `1 voxel is`, `3 voxels are`.
 fn counted(count: usize, one: &str, several: &str) -> String {

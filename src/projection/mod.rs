@@ -6,12 +6,16 @@
 //! `tests/projections.rs`, and a golden plan.
 
 mod composite;
+mod extreme;
 mod row;
 mod shown;
+mod sum;
 
 pub use composite::COMPOSITE;
+pub use extreme::{MINIP, MIP};
 pub use row::{Ends, Levels, Met, OfValues, Projection, SampleWeight, ValueSpan};
 pub use shown::Shown;
+pub use sum::{AVERAGE, XRAY};
 
 use std::str::FromStr;
 
@@ -22,7 +26,7 @@ use crate::scene::Settings;
 use crate::scene::settings::ProjectionName;
 
 /// Every projection, in the order of tables and of the help.
-pub const PROJECTIONS: [&Projection; 1] = [&COMPOSITE];
+pub const PROJECTIONS: [&Projection; 5] = [&COMPOSITE, &MIP, &MINIP, &AVERAGE, &XRAY];
 
 /// The projection of a scene with these settings. Names are read here, so that every one has its row.
 pub fn of(settings: &Settings) -> &'static Projection {

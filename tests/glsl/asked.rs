@@ -110,8 +110,6 @@ pub fn plans() -> Vec<(String, Plan)> {
 pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
     let steps = plans.iter().flat_map(|(_, plan)| &plan.steps);
     let planned = steps.filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
-    // What values begin with is drawn for no projection of colours.
-    let plain = ["box.vert", "start.frag"].map(|file| Shader::new(file, []));
-    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]).chain(plain);
+    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader(), Shader::new("box.vert", [])]);
     planned.chain(others).collect()
 }

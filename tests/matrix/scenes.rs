@@ -1,11 +1,12 @@
 //! The scenes of the matrix: tiny ones, of which each differs from the first by what a frame may have or lack.
 //!
-//! A new feature is given its scenes here, and nowhere else: a test asks that some have it and some lack it. What every
-//! scene is to be drawn with, once it is a table of the program, is a loop more in [`scenes`].
+//! A new feature is given its scenes here, and nowhere else: a test asks that some have it and some lack it. A new
+//! projection has its scene by itself.
 
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
+use depthleap::projection::PROJECTIONS;
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::{Alpha, Classification, Filter, Last, Offset, Settings, VolumeTexture};
@@ -84,10 +85,16 @@ fn settings(change: Change) -> Settings {
     settings
 }
 
-/// Every scene of the matrix, by name.
+/// Every scene of the matrix, by name: every kind by the first projection, and the first kind by every other.
 pub fn scenes() -> Vec<(String, Scene)> {
-    let scene = |change| read::scene(&settings(change)).expect("a sound scene");
-    KINDS.into_iter().map(|(name, change)| (name.to_owned(), scene(change))).collect()
+    let kinds = KINDS.into_iter().map(|(name, change)| (name, settings(change)));
+    let projections = PROJECTIONS.into_iter().skip(1).map(|row| {
+        let mut settings = settings(KINDS[0].1);
+        settings.projection.kind = row.name();
+        (row.name, settings)
+    });
+    let scene = |(name, settings): (&str, Settings)| (name.to_owned(), read::scene(&settings).expect("a sound scene"));
+    kinds.chain(projections).map(scene).collect()
 }
 
 /// The scene as its camera sees it, and from within.

@@ -3,6 +3,7 @@
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::plan::{Plan, plan};
+use depthleap::projection::{MIP, Projection};
 use depthleap::read;
 use depthleap::scene::settings::{Cull, Mark, MethodName};
 use depthleap::scene::{Scene, Settings};
@@ -24,6 +25,13 @@ pub struct Case {
     /// Of its golden, `tests/golden/plan_NAME.txt`.
     pub name: &'static str,
     pub plan: Plan,
+}
+
+/// By near-neighbor skipping, another projection than that of the others.
+fn projected(row: &Projection, form: Option<Form>) -> Plan {
+    let mut settings = settings(method::NN_OMNI.name());
+    settings.projection.kind = row.name();
+    plan(&scene(&settings), form).unwrap()
 }
 
 pub fn cases() -> Vec<Case> {
@@ -65,5 +73,6 @@ pub fn cases() -> Vec<Case> {
     settings.sampling.samples_per_pass = 2;
     let plan = plan(&scene(&settings), form(Bounds, Mark::Copy)).unwrap();
     cases.push(Case { name: "nn-omni+fused_bounds_copy_counted", plan });
+    cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases
 }
