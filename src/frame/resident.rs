@@ -125,8 +125,10 @@ impl Resident {
         let times: Vec<(Asset, f64)> =
             built.filter_map(|build| self.kept(build.asset).map(|kept| (build.asset, kept.ms))).collect();
         let of_view = |asset: &Asset| asset.lookup.is_some_and(|lookup| lookup.view.is_some());
-        let view = times.iter().filter(|(asset, _)| of_view(asset)).map(|(_, ms)| ms).sum();
-        (!times.is_empty()).then(|| [times.iter().map(|(_, ms)| ms).sum(), view])
+        let total = |of: &dyn Fn(&Asset) -> bool| {
+            times.iter().filter(|(asset, _)| of(asset)).fold(0.0, |sum, (_, ms)| sum + ms)
+        };
+        (!times.is_empty()).then(|| [total(&|_| true), total(&of_view)])
     }
 
     /// Runs the steps of the plan that come before its frame; those are passed over whose assets are there.

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
+use depthleap::projection::{self, Ends};
 use depthleap::resource;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{DepthFormat, Filter, Formats};
@@ -27,6 +28,9 @@ const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthForma
 
 /// Pixels of a frame that f32 may leave undecided: with so few of them, that counts may be off by one for each hides nothing.
 const UNDECIDED: u64 = 4;
+
+/// The same where rays end at a value: the background is next to the least of them, and many rays pass near it.
+const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 
 /// Pixels on the outline of the box that the rasteriser may leave undecided: none from within, from outside some fifteen on
 /// a raster of 1/16 pixel.
@@ -93,7 +97,11 @@ impl Runs<'_> {
         let twin = self.stage.twin(&scene, method.papers);
         let undecided = twin.undecided.iter().filter(|undecided| **undecided).count() as u64 - twin.outline;
         self.undecided = self.undecided.max(undecided);
-        if undecided > UNDECIDED || twin.outline > OUTLINE {
+        let most = match projection::of(&scene.settings).ends {
+            Ends::Opaque | Ends::Never(_) => UNDECIDED,
+            Ends::Reached => UNDECIDED_AT_AN_EXTREME,
+        };
+        if undecided > most || twin.outline > OUTLINE {
             return Err(format!("{undecided} pixels are undecided, and {} on the outline", twin.outline));
         }
         if !method.on_device {
