@@ -23,8 +23,7 @@ struct Scheduling {
 
 fn schedulings() -> Vec<Scheduling> {
     let each = |case: cases::Case| {
-        let steps = case.plan.steps.into_iter().filter(|step| !matches!(step.work, Work::Dispatch { .. }));
-        let steps: Vec<Step> = steps.collect();
+        let steps = case.plan.frame().to_vec();
         let scheduled = schedule(&steps, |resource| resource.format(Formats::default()));
         assert_eq!(steps.len(), scheduled.len());
         Scheduling { name: case.name, steps, scheduled }

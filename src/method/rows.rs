@@ -9,8 +9,9 @@ use crate::part::steps::Steps;
 use crate::pass::{alive, clear, direction, entry, main_pass, mark_copy, start};
 use crate::scene::settings::{Cull, Mark};
 
-/// Steps before the first main pass, with one to spare.
-const STEPS_BEFORE: usize = 4;
+/// Steps before the first main pass, and room for the uploads and builds that a plan puts in front of them: some thirty at
+/// the most.
+const STEPS_BEFORE: usize = 64;
 
 /// The bound of main passes that are switched on and off only: rays that go on hold 0, others 0.5 or 1.
 const SWITCH: f32 = 0.25;

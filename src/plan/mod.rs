@@ -166,11 +166,13 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     let facts = Facts { scene, view: &view, passes, lookup: distance, table: None };
     // The twins of a method without a device read no resources but each other's.
     let on_host = choice.on_host || scene.settings.method.build == Builder::Host;
-    let Builds { mut steps, list: builds } = match method.on_device {
+    let Builds { steps: before, list: builds } = match method.on_device {
         true => Builds::of(&facts, on_host, &builds::reads(&frame)),
         false => Builds::default(),
     };
-    steps.extend(frame);
+    // The frame's list has room for them.
+    let mut steps = frame;
+    steps.splice(0..0, before);
     let texture = (method.on_device && passes > 0).then(|| TextureChoice::of(scene));
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
