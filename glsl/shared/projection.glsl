@@ -1,5 +1,5 @@
-// How the samples of a ray become its pixel, a case for each row of src/projection, which is the twin. Needs frame.glsl and
-// opacity.glsl.
+// How the samples of a ray become its pixel: a code for each row of src/projection, which is the twin, and a case in each of
+// the functions below. Needs frame.glsl and opacity.glsl.
 
 // The codes of the rows.
 const int COMPOSITE = 0;

@@ -1,9 +1,16 @@
 //! How the samples of a ray become its pixel: [`PROJECTIONS`] is the one list.
 //!
-//! To add one: a row, in a file here with its `mod` line and its place in [`PROJECTIONS`], and a case in
-//! `glsl/shared/projection.glsl` under the row's code. What a row of values says of a sample in f64 is the twin of that case.
-//! Methods, passes and experiments ask the row, and tests go through all rows; add the closed forms of the new one to
-//! `tests/projections.rs`, and a golden plan.
+//! To add one:
+//!
+//! 1. A row, in a file here: its `mod` and `pub use` lines below, its entry in [`PROJECTIONS`] and the count there. A pixel is
+//!    what one blend leaves, and nothing is done to it afterwards, so that roots, quotients and differences of two such sums
+//!    cannot be rows. What a row of values says of a sample in f64 is the twin of the shader.
+//! 2. Its code in `glsl/shared/projection.glsl`, and a case in each function of that file.
+//! 3. Where its exact pixel takes more of a ray than [`Met`] has: that, with its closed form, in `src/truth/exact/met.rs`.
+//! 4. Its entry and its closed forms in `tests/projections.rs`, which has no default for a row; its line in the README's table;
+//!    a `Case` of `tests/plan/cases.rs` with its golden plan where its steps differ from those of `mip`.
+//!
+//! Methods, passes, experiments and the matrix of tests go through all rows by themselves.
 
 mod composite;
 mod extreme;

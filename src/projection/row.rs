@@ -34,8 +34,8 @@ pub enum Ends {
     Never(&'static str),
 }
 
-/// What a projection of values makes of them. Its pictures are grey, and opaque wherever the box is: no transfer function
-/// takes part.
+/// What a projection of values makes of them. Its pictures are grey, and opaque wherever the box is, by what rays begin with:
+/// no transfer function takes part. Levels and what counts are asked in x and in the texture's unit, all else in x.
 pub struct OfValues {
     /// What values are held against, by those there are.
     pub levels: fn(&ValueSpan) -> Levels,
@@ -49,7 +49,8 @@ pub struct OfValues {
     pub exact: fn(&Met) -> f64,
     /// The order in which its error falls with the step, where theory knows one. The flag: x is 0 at both ends of a ray.
     pub order: fn(Offset, Last, bool) -> Option<f64>,
-    /// The most that a difference of 1 in every sample is in the pixel of a ray so many reference lengths long.
+    /// The most that a difference of 1 in every sample is in the pixel of a ray so many reference lengths long; of pixels that
+    /// are linear in x, or an extreme of it.
     pub magnification: fn(f64) -> f64,
     /// What is to be known of its error.
     pub remark: &'static str,
