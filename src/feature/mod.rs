@@ -1,7 +1,7 @@
 //! What a frame may have and a scene may not need: [`FEATURES`] is the one list.
 //!
 //! To add one: a file here with its row, a line in [`FEATURES`] (the order of the lines of plans), its code in the shaders at
-//! its hook with its f64 twin, and a test of the scenes that need it and those that do not.
+//! its hook with its f64 twin, and scenes that need it and do not need it in `tests/matrix/scenes.rs`, which a test asks for.
 
 mod block_ranges;
 mod classification;
