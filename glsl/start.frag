@@ -1,14 +1,25 @@
 // What rays begin with, in every pixel the box covers: front faces of the box. A ray whose samples are all skipped has this
-// for its picture.
+// for its picture. SHORT_RAYS: a ray so short that it takes no sample holds what no sample can change, instead of the
+// greatest value of the volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+//@takes [SHORT_RAYS]
 
 #include "shared/frame.glsl"
 #include "shared/opacity.glsl"
 #include "shared/projection.glsl"
+#ifdef SHORT_RAYS
+#include "shared/double_float.glsl"
+#include "shared/samples.glsl"
+#endif
 
 layout(location = 0) out vec4 accumulated;
 
 void main() {
     accumulated = vec4(no_sample().rgb, 1.0);
+#ifdef SHORT_RAYS
+    if (load_ray().samples == 0u) {
+        accumulated = vec4(vec3(x_of(frame.end)), 1.0);
+    }
+#endif
 }

@@ -190,6 +190,26 @@ fn the_exact_extremum_is_no_sample() {
 }
 
 #[test]
+fn rays_too_short_for_a_sample_do_not_stand_out() {
+    for row in of_values() {
+        // A cube on its edge, by long steps from the middle of each: rays at its outline are shorter than half a step.
+        let scene = scene(
+            row,
+            |[x, _, _]| 0.25 + 0.5 * (x as f64 / (SIDE - 1) as f64),
+            |s| {
+                s.camera.eye = [1.4, 1.1, 1.0];
+                (s.sampling.offset, s.sampling.step) = (Offset::Midpoint, 4.0);
+            },
+        );
+        let (picture, rays) = (twin(&scene), rays(&scene));
+        let short = rays.iter().zip(&picture).filter(|(ray, _)| ray.is_some_and(|(_, length)| length < 2.0));
+        let shown: Vec<f64> = short.map(|(_, pixel)| pixel[0]).collect();
+        assert!(!shown.is_empty(), "{}: no ray is that short", row.name);
+        assert!(shown.iter().all(|value| *value < 0.2501), "{}: {shown:?}", row.name);
+    }
+}
+
+#[test]
 fn what_cannot_change_a_pixel_is_not_interesting() {
     // One voxel of 1 in nothing: the eight cells around it are all that counts, but for minip, which sees everything else.
     let dot = |at: [usize; 3]| f64::from(u8::from(at == [7, 8, 9]));

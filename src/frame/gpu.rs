@@ -12,8 +12,8 @@ use ash::vk;
 use cpu_time::{ProcessTime, ThreadTime};
 
 use super::compile::{Compiled, CompiledStep, compile};
-use super::cpu::Counts;
 use super::object::DeviceObject;
+use super::queries::{FrameQueries, FrameRun, Measure};
 use super::resident::Resident;
 use crate::error::Result;
 use crate::part::resource::Resource;
@@ -22,19 +22,7 @@ use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Buffer, BufferInfo, Commands, CopyRegion, Device, Place, QueryKind, QueryPool, Scope};
-
-/// What a run measures, besides its wall and CPU time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    Nothing,
-    /// GPU time of every step.
-    Times,
-    /// Fragments of every step, and invocations with `statistics`.
-    Counts {
-        statistics: bool,
-    },
-}
+use crate::vulkan::{Commands, CopyRegion, Device, Scope};
 
 /// How the rest of a frame is left out when no ray is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,34 +35,13 @@ pub enum EarlyEnd {
     Never,
 }
 
-/// One run of a frame.
-#[derive(Clone, Debug, Default)]
-pub struct FrameRun {
-    /// Wall time from the first command recorded to the last result there, milliseconds.
-    pub frame_ms: f64,
-    /// CPU time of the process meanwhile.
-    pub cpu_ms: f64,
-    /// CPU time of this thread for recording and submitting.
-    pub record_ms: f64,
-    /// GPU time from the first step's begin to the last one's end, and of each step that ran.
-    pub gpu_total_ms: Option<f64>,
-    pub step_ms: Vec<(Group, u32, f64)>,
-    pub fragments: Option<Counts>,
-    pub invocations: Option<Counts>,
-}
-
 /// A plan, compiled for a device.
 pub struct GpuFrame {
     device: Arc<Device>,
     compiled: Compiled,
-    passes: u32,
     size: [u32; 2],
     early_end: EarlyEnd,
-    occlusion: QueryPool,
-    statistics: Option<QueryPool>,
-    timestamps: Option<QueryPool>,
-    /// One 32-bit count for every time the rays left are counted.
-    predicates: Option<Buffer>,
+    queries: FrameQueries,
     step_names: Arc<[String]>,
     /// Where RES was left by the last run.
     accumulated_layout: vk::ImageLayout,
@@ -97,39 +64,13 @@ impl GpuFrame {
         let mut plan = plan.clone();
         plan.steps.retain(|step| step.group != Group::Alive || early_end != EarlyEnd::Never);
         let compiled = compile(device, scene, &plan, resident)?;
-        let steps = compiled.steps.len().max(1) as u32;
-        let alive = compiled.steps.iter().filter(|s| s.step.group == Group::Alive).count() as u64;
-        let predicates = (alive > 0 && early_end == EarlyEnd::Conditional)
-            .then(|| {
-                Buffer::new(
-                    device,
-                    BufferInfo {
-                        name: "rays_left".to_owned(),
-                        size: 4 * alive,
-                        usage: vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT | vk::BufferUsageFlags::TRANSFER_DST,
-                        place: Place::Device,
-                    },
-                )
-            })
-            .transpose()?;
-        let timed = device.graphics.timestamp_valid_bits > 0;
+        let alive = compiled.steps.iter().filter(|s| s.step.group == Group::Alive).count();
+        let predicates = if early_end == EarlyEnd::Conditional { alive } else { 0 };
         Ok(Self {
             device: device.clone(),
-            passes: plan.passes,
             size: plan.view.size,
             early_end,
-            occlusion: QueryPool::new(device, "fragments", QueryKind::Occlusion, steps)?,
-            statistics: if device.info.pipeline_statistics {
-                Some(QueryPool::new(device, "invocations", QueryKind::Statistics, steps)?)
-            } else {
-                None
-            },
-            timestamps: if timed {
-                Some(QueryPool::new(device, "times", QueryKind::Timestamp, 2 * steps)?)
-            } else {
-                None
-            },
-            predicates,
+            queries: FrameQueries::new(device, compiled.steps.len(), plan.passes, predicates)?,
             step_names: compiled.steps.iter().map(|s| s.step.name.clone()).collect(),
             accumulated_layout: vk::ImageLayout::UNDEFINED,
             compiled,
@@ -163,7 +104,7 @@ impl GpuFrame {
         run.frame_ms = wall.elapsed().as_secs_f64() * 1e3;
         if let Some(last) = done.checked_sub(1) {
             self.accumulated_layout = self.compiled.steps[last].accumulated_layout.unwrap_or_default();
-            self.collect(measure, done, &mut run)?;
+            self.queries.collect(measure, &self.compiled.steps[..done], &mut run)?;
         }
         Ok(run)
     }
@@ -190,7 +131,7 @@ impl GpuFrame {
         let begin = ThreadTime::now();
         let mut commands = Commands::begin(&self.device, &self.device.graphics, "frame")?;
         if batch.start == 0 {
-            self.reset_queries(&mut commands);
+            self.queries.reset(&mut commands);
         }
         let steps = &self.compiled.steps;
         let counted_before = |i: usize| steps[..i].iter().filter(|s| s.step.group == Group::Alive).count();
@@ -198,7 +139,7 @@ impl GpuFrame {
         for i in batch {
             self.record(&mut commands, i, alive.checked_sub(1), measure)?;
             if steps[i].step.group == Group::Alive {
-                self.record_rays_left(&mut commands, i, alive);
+                self.queries.record_rays_left(&mut commands, i, alive);
                 alive += 1;
             }
         }
@@ -209,24 +150,13 @@ impl GpuFrame {
         Ok(ms)
     }
 
-    fn reset_queries(&self, commands: &mut Commands) {
-        let steps = self.compiled.steps.len() as u32;
-        commands.reset_queries(&self.occlusion, 0..steps);
-        if let Some(pool) = &self.statistics {
-            commands.reset_queries(pool, 0..steps);
-        }
-        if let Some(pool) = &self.timestamps {
-            commands.reset_queries(pool, 0..2 * steps);
-        }
-    }
-
     /// Step `i`; drawn only while rays were left when they were counted for the time `predicate`.
     fn record(&self, commands: &mut Commands, i: usize, predicate: Option<usize>, measure: Measure) -> Result<()> {
         let compiled = &self.compiled.steps[i];
         let step = &compiled.step;
         commands.label_begin(&step.name);
         commands.step(i as u32);
-        let times = self.timestamps.as_ref().filter(|_| measure == Measure::Times);
+        let times = self.queries.times(measure);
         if let Some(pool) = times {
             commands.timestamp(pool, 2 * i as u32);
         }
@@ -255,10 +185,7 @@ impl GpuFrame {
         let Some(objects) = &compiled.draw else { return };
         let area = self.area();
         let counting = matches!(measure, Measure::Counts { .. }) || compiled.step.group == Group::Alive;
-        let statistics = match measure {
-            Measure::Counts { statistics: true } => self.statistics.as_ref(),
-            _ => None,
-        };
+        let statistics = self.queries.statistics(measure);
         commands.begin_render_pass(&objects.render_pass, &objects.framebuffer, area, &objects.clears);
         commands.bind_graphics(&objects.pipeline, &objects.set);
         // One depth for the whole box, to the bit.
@@ -278,9 +205,9 @@ impl GpuFrame {
             commands.begin_query(pool, i as u32);
         }
         if counting {
-            commands.begin_query(&self.occlusion, i as u32);
+            commands.begin_query(self.queries.occlusion(), i as u32);
         }
-        let conditional = self.predicates.as_ref().zip(predicate);
+        let conditional = self.queries.predicates().zip(predicate);
         if let Some((buffer, at)) = conditional {
             commands.begin_conditional(buffer, 4 * at as u64);
         }
@@ -289,7 +216,7 @@ impl GpuFrame {
             commands.end_conditional();
         }
         if counting {
-            commands.end_query(&self.occlusion, i as u32);
+            commands.end_query(self.queries.occlusion(), i as u32);
         }
         if let Some(pool) = statistics {
             commands.end_query(pool, i as u32);
@@ -309,59 +236,13 @@ impl GpuFrame {
         commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], texels);
     }
 
-    /// Hands the count of rays left to the draws that follow.
-    fn record_rays_left(&self, commands: &mut Commands, i: usize, at: usize) {
-        let Some(buffer) = &self.predicates else { return };
-        commands.copy_query_results(&self.occlusion, i as u32, buffer, 4 * at as u64);
-        commands.buffer_barrier(
-            buffer,
-            Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE),
-            Scope::new(
-                vk::PipelineStageFlags2::CONDITIONAL_RENDERING_EXT,
-                vk::AccessFlags2::CONDITIONAL_RENDERING_READ_EXT,
-            ),
-        );
-    }
-
     /// Whether the step before `done` counted any ray, where it counted.
     fn rays_left(&self, done: usize) -> Result<bool> {
         let last = done - 1;
         if self.compiled.steps[last].step.group != Group::Alive {
             return Ok(true);
         }
-        Ok(self.occlusion.read(last as u32..done as u32)?[0] > 0)
-    }
-
-    fn collect(&self, measure: Measure, done: usize, run: &mut FrameRun) -> Result<()> {
-        let steps = &self.compiled.steps[..done];
-        match measure {
-            Measure::Nothing => {}
-            Measure::Times => {
-                let Some(pool) = &self.timestamps else { return Ok(()) };
-                let ticks = pool.read(0..2 * done as u32)?;
-                let ms = |a: usize, b: usize| self.device.elapsed_ms(ticks[a], ticks[b]);
-                run.gpu_total_ms = Some(ms(0, 2 * done - 1));
-                let each = |(i, s): (usize, &CompiledStep)| (s.step.group, s.step.pass, ms(2 * i, 2 * i + 1));
-                run.step_ms = steps.iter().enumerate().map(each).collect();
-            }
-            Measure::Counts { statistics } => {
-                run.fragments = Some(self.counts(&self.occlusion, steps)?);
-                if let Some(pool) = self.statistics.as_ref().filter(|_| statistics) {
-                    run.invocations = Some(self.counts(pool, steps)?);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn counts(&self, pool: &QueryPool, steps: &[CompiledStep]) -> Result<Counts> {
-        let mut counts = Counts::new(self.passes);
-        for (i, compiled) in steps.iter().enumerate() {
-            if let Some(list) = counts.of(compiled.step.group) {
-                list[compiled.step.pass as usize] += pool.read(i as u32..i as u32 + 1)?[0];
-            }
-        }
-        Ok(counts)
+        Ok(self.queries.fragments(last)? > 0)
     }
 
     /// RES as the last run left it: premultiplied RGBA, row 0 on top, transparent where the box is not.

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::cpu::{self, Counts};
-use super::gpu::{GpuFrame, Measure};
+use super::gpu::GpuFrame;
+use super::queries::Measure;
 use super::resident::Resident;
 use super::structures::Structures;
 use super::texture_unit;

@@ -9,12 +9,13 @@ use crate::resource;
 use crate::twin;
 
 pub fn start(context: &Context) -> Step {
-    let accesses = vec![
-        Usage::Vertices.of(resource::BOX),
-        Usage::Sampled.of(resource::FRAME),
-        Usage::Color.of(resource::ACCUMULATED),
-    ];
+    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
     let mut draw = Draw::plain(&BOX_FRONT, "start.frag", twin::start::start);
+    if context.projection().levels_in_x(context.scene).falls() {
+        accesses.push(Usage::Sampled.of(resource::DIRECTION));
+        draw.define(["SHORT_RAYS"]);
+    }
+    accesses.push(Usage::Color.of(resource::ACCUMULATED));
     draw.specialize([constants::projection(context)]);
     Step::drawn("start".to_owned(), Group::Setup, 0, accesses, draw)
 }

@@ -97,6 +97,11 @@ impl Levels {
         Self { start: start.into(), end: end.into() }
     }
 
+    /// Whether samples bring a ray down from what it begins with, so that one without samples would stand out.
+    pub fn falls(self) -> bool {
+        self.end < self.start
+    }
+
     /// The same levels as x, of those in the unit that `map` leads to.
     pub fn in_x(self, map: TextureMap) -> Self {
         Self { start: map.x(self.start), end: map.x(self.end) }

@@ -38,6 +38,9 @@ fn orders_are_those_of_power_laws() {
 fn what_does_not_fall_with_the_step_is_left_out_of_a_fit() {
     let found = fit(&law(|step| step * step + 0.05)).unwrap();
     assert!(found.points == 5 && found.order < 2.0, "{found:?}");
+    // A step between at which errors cancel is no floor.
+    let cancelled = fit(&law(|step| step * step * if step == 2.0 { 0.3 } else { 1.0 })).unwrap();
+    assert!(cancelled.points == 6 && cancelled.order > 1.5, "{cancelled:?}");
     // A floor from the beginning, errors that grow, too few points, none.
     assert_eq!(fit(&law(|_| 1e-3)), None);
     assert_eq!(fit(&law(|step| 1.0 / step)), None);

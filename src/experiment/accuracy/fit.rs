@@ -2,8 +2,8 @@
 
 use super::{Curve, Fit, Point};
 
-/// Where half the step takes less than this order from the error, it has come down to what does not fall with the step:
-/// rounding, the texture unit, rays that end early.
+/// Where no shorter step takes this order from the error, it has come down to what does not fall with the step: rounding, the
+/// texture unit, rays that end early. A single halving may take less, where errors of either sign happen to cancel.
 const STALLED: f64 = 0.4;
 
 /// Longer steps than this do not meet a cell each.
@@ -18,8 +18,11 @@ pub fn fit(points: &[(f64, f64)]) -> Option<Fit> {
         .map(|(step, error)| (step.ln(), error.ln()))
         .collect();
     sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let falls = |pair: &[(f64, f64)]| (pair[0].1 - pair[1].1) >= STALLED * (pair[0].0 - pair[1].0);
-    let used = &sorted[..sorted.windows(2).position(|pair| !falls(pair)).map_or(sorted.len(), |at| at + 1)];
+    let falls = |at: usize| {
+        let (step, error) = sorted[at];
+        sorted[at + 1..].iter().any(|(shorter, less)| error - less >= STALLED * (step - shorter))
+    };
+    let used = &sorted[..(0..sorted.len()).find(|at| !falls(*at)).map_or(0, |at| at + 1)];
     if used.len() < 3 {
         return None;
     }
