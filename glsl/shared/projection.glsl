@@ -1,5 +1,6 @@
 // How the samples of a ray become its pixel: a code for each row of src/projection, which is the twin, and a case in each of
-// the functions below. Needs frame.glsl and opacity.glsl.
+// the functions below but `x_of`; in `no_sample` only where the blend is an extreme, in `ended` only where rays end by it.
+// `frame.exponent` is the reference lengths in a step. Needs frame.glsl and opacity.glsl.
 
 // The codes of the rows.
 const int COMPOSITE = 0;
@@ -62,7 +63,9 @@ vec4 value_sample(float value, float steps, float all) {
         return vec4(vec3(x_of(max(value, frame.end))), 1.0);
     case AVERAGE:
         return zero ? vec4(0.0) : vec4(vec3(x_of(value) * (steps / all)), 0.0);
-    default:
+    case XRAY:
         return zero ? vec4(0.0) : vec4(vec3(x_of(value) * (steps * frame.exponent)), 0.0);
+    default:
+        return vec4(0.0);
     }
 }

@@ -3,14 +3,22 @@
 //! To add one:
 //!
 //! 1. A row, in a file here: its `mod` and `pub use` lines below, its entry in [`PROJECTIONS`] and the count there. A pixel is
-//!    what one blend leaves, and nothing is done to it afterwards, so that roots, quotients and differences of two such sums
-//!    cannot be rows. What a row of values says of a sample in f64 is the twin of the shader.
-//! 2. Its code in `glsl/shared/projection.glsl`, and a case in each function of that file.
-//! 3. Where its exact pixel takes more of a ray than [`Met`] has: that, with its closed form, in `src/truth/exact/met.rs`.
-//! 4. Its entry and its closed forms in `tests/projections.rs`, which has no default for a row; its line in the README's table;
-//!    a `Case` of `tests/plan/cases.rs` with its golden plan where its steps differ from those of `mip`.
+//!    what one blend (`Add`, `Max`, `Min`, `Over`) leaves of samples that know nothing of each other, and nothing is done to it
+//!    afterwards: no roots, no quotient or difference of two sums or extremes, nothing that depends on samples before. What a
+//!    row of values says of a sample in f64 is the twin of the shader. Its `part` is continuous in x but at its levels, where
+//!    `src/twin/segment.rs` knows that f32 may see the other side. Its `magnification` is that of pixels which are linear in x,
+//!    or an extreme of it; a sum of another function of x first needs that field made more general, with its two readers,
+//!    `src/plan/precision.rs` and `src/plan/warnings.rs`.
+//! 2. Its code in `glsl/shared/projection.glsl`, and a case in each function of that file which has cases, as its head says.
+//! 3. Where its exact pixel takes more of a ray than [`Met`] has: a field there, filled in `src/truth/exact/met.rs`, its closed
+//!    form a function of the cubic in `src/truth/exact/cubic.rs`.
+//! 4. Its closed forms in `tests/projections.rs`, where no row has a default; its line in the README's table, and the paragraph
+//!    under it; a `Case` of `tests/plan/cases.rs` with its golden plan where its steps differ from those of every row that has
+//!    one (sums share one).
 //!
-//! Methods, passes, experiments and the matrix of tests go through all rows by themselves.
+//! Methods, passes, experiments and the matrix of tests go through all rows by themselves. While at it, run
+//! `cargo test --test projections --test asked_shaders`, and on a device `cargo test --test device -- NAME`, which takes one
+//! name and finds the matrix' and its own tests; `depthleap stability --case NAME` holds its extremes.
 
 mod composite;
 mod extreme;

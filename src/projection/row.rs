@@ -11,7 +11,7 @@ pub struct Projection {
     pub name: &'static str,
     /// What it is, in a line of the help.
     pub about: &'static str,
-    /// Where it is described.
+    /// Where it is described, or "not in the papers"; the help shows it in brackets.
     pub source: &'static str,
     /// Its number in `glsl/shared/projection.glsl`.
     pub code: u32,
@@ -51,6 +51,7 @@ pub struct OfValues {
     pub order: fn(Offset, Last, bool) -> Option<f64>,
     /// The most that a difference of 1 in every sample is in the pixel of a ray so many reference lengths long; of pixels that
     /// are linear in x, or an extreme of it.
+    /// Plans state by it how far a pixel may be off, and warn by it of values that the picture's format cannot hold.
     pub magnification: fn(f64) -> f64,
     /// What is to be known of its error.
     pub remark: &'static str,

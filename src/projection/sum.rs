@@ -37,6 +37,7 @@ pub const XRAY: Projection = Projection {
     values: Some(SUM),
 };
 
+/// A row that takes over the rest of this looks at each of `part`, `exact`, `order`, `magnification` and `remark`.
 const SUM: OfValues = OfValues {
     levels: |span| Levels::new(span.zero, span.zero + span.slack(span.zero)),
     counting: |levels| {
