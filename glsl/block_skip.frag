@@ -7,10 +7,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/block.glsl"
 #include "shared/opacity.glsl"
@@ -28,8 +30,6 @@ layout(set = 0, binding = 9) uniform usampler2D block_table;
 // A sample stands for all values up to the next one (shared/preintegrated.glsl).
 layout(constant_id = 12) const bool SPANS = false;
 
-// Depth of a ray whose next segment is empty.
-const float SKIPPED = 0.5;
 // A sample this near (in steps) beyond the face of a block is asked for by itself: f32 cannot tell its side.
 const float BOUNDARY = 1e-3;
 
@@ -77,14 +77,16 @@ bool segment_visible(Ray ray, uint first, uint end) {
 
 void main() {
     Ray ray = load_ray();
-    uint first = this_step.pass * SAMPLES_PER_PASS;
-    uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+    uint first = segment_begin(ray, this_step.pass);
+    uint end = min(this_step.pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
 #ifdef ENDLESS
     bool saturated = false;
 #else
     bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
 #endif
-    if (first >= end || saturated) {
+    if (begins_later(ray, this_step.pass) && !saturated) {
+        MARK(SKIPPED);
+    } else if (first >= end || saturated) {
         MARK(DEAD);
     } else {
         MARK(segment_visible(ray, first, end) ? 0.0 : SKIPPED);

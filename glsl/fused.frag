@@ -16,6 +16,7 @@
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
 //@takes [DENSE], [ENDLESS], [VALUES]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 // RES comes first.
 #define MARK_LOCATION 1
@@ -24,6 +25,7 @@
 #include "shared/cull.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"

@@ -7,10 +7,12 @@
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
 //@takes [VALUES]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
 #include "shared/double_float.glsl"
+#include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
 #include "shared/opacity.glsl"

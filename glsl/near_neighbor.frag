@@ -8,11 +8,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD], [DENSE], [ENDLESS]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"

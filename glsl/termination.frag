@@ -5,10 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/opacity.glsl"
 #include "shared/projection.glsl"
@@ -19,5 +21,5 @@ void main() {
     Ray ray = load_ray();
     bool gone = this_step.pass * SAMPLES_PER_PASS >= ray.samples;
     bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
-    MARK(gone || saturated ? DEAD : 0.0);
+    MARK(gone || saturated ? DEAD : begins_later(ray, this_step.pass) ? SKIPPED : 0.0);
 }

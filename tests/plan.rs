@@ -65,7 +65,8 @@ fn names_of_steps_are_unique_and_numbers_those_of_their_pass() {
         let names: BTreeSet<&str> = case.plan.steps.iter().map(|step| step.name.as_str()).collect();
         assert_eq!(names.len(), case.plan.steps.len(), "{}", case.name);
         for step in case.plan.steps.iter().filter(|step| step.name.contains('#')) {
-            assert_eq!(step.name, format!("{} #{}", step.pass_name(), step.pass));
+            let part = step.section.checked_sub(1).map_or(String::new(), |layer| format!(" behind layer {layer}"));
+            assert_eq!(step.name, format!("{} #{}{part}", step.pass_name(), step.pass));
         }
     }
 }

@@ -10,7 +10,7 @@ use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::resource::{self, RESOURCES, order};
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, Distance};
+use depthleap::scene::settings::{Classification, Distance, MeshSettings};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use depthleap::structure::Lookup;
@@ -33,7 +33,11 @@ fn scenes() -> Vec<Scene> {
     holes.field = Field::new(volume.unwrap(), None, NanPolicy::Hole).unwrap().into();
     let table = scene(|s| s.sampling.classification = Classification::PreIntegrated);
     let coloured = scene(|s| s.transfer.points = Some(colours));
-    vec![scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table]
+    let polygons = scene(|s| {
+        let mesh = |opacity| MeshSettings { builtin: Some("box".to_owned()), opacity, ..MeshSettings::default() };
+        s.meshes = vec![mesh(0.5), mesh(1.0)];
+    });
+    vec![scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons]
 }
 
 fn hole_at_7(i: usize) -> f32 {

@@ -43,3 +43,5 @@ layout(early_fragment_tests) in;
 
 // Depth of a ray that is saturated or gone.
 const float DEAD = 1.0;
+// Depth of a ray that has nothing to do in the next segment, and goes on behind it.
+const float SKIPPED = 0.5;

@@ -10,7 +10,8 @@
 
 #ifdef DENSE
 uint next_section(Ray ray, uint section) {
-    return section * SAMPLES_PER_PASS < ray.samples ? section : frame.passes;
+    uint i = segment_begin(ray, section);
+    return i < ray.samples ? i / SAMPLES_PER_PASS : frame.passes;
 }
 #else
 // Of each cell a byte, or eight bytes in two words, one for each octant: 0 where the cell is interesting, else one more
@@ -56,8 +57,8 @@ uint free_from(Ray ray, uint i) {
 
 // The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
 uint next_section(Ray ray, uint section) {
-    uint i = section * SAMPLES_PER_PASS;
-    uint end = min(i + SAMPLES_PER_PASS, ray.samples);
+    uint i = segment_begin(ray, section);
+    uint end = min(segment_end(i), ray.samples);
     if (i >= end) {
         return frame.passes;
     }

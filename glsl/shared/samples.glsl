@@ -1,4 +1,5 @@
-// Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl and double_float.glsl.
+// Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl, double_float.glsl and
+// layer.glsl.
 
 layout(set = 0, binding = 1) uniform sampler2D entry;
 layout(set = 0, binding = 2) uniform sampler2D direction;
@@ -19,9 +20,55 @@ struct Ray {
     vec3 stride_rest;
     // Length inside the volume, in steps.
     float steps;
-    // Samples on the ray.
+    // Samples on the ray; of a part of a ray one past its last.
     uint samples;
+#ifdef LAYERS
+    // The part of the ray that is drawn, in steps; its first sample; samples on the whole ray.
+    float begin;
+    float end;
+    uint first;
+    uint all;
+#endif
 };
+
+// The last sample stands for what is left of the ray only; one that a surface cuts, for what is left of its step.
+layout(constant_id = 5) const bool LAST_PARTIAL = false;
+
+#ifdef LAYERS
+// Cuts a ray at the layers before and behind: its samples are those of the whole ray that lie between or, where they stand
+// for parts of steps, whose steps do so in part.
+void cut(inout Ray ray) {
+    ray.all = ray.samples;
+    ray.begin = 0.0;
+    ray.end = ray.steps;
+    vec4 behind = layer_behind();
+    if (behind.x > 0.0) {
+        ray.end = min(behind.z * frame.inverse_step, ray.steps);
+    }
+#ifdef LAYER_BEFORE
+    vec4 before = layer_before();
+    ray.begin = before.x > 0.0 ? max(before.z * frame.inverse_step, 0.0) : ray.steps;
+#endif
+    ray.first = 0u;
+    ray.samples = 0u;
+    if (ray.begin < ray.end && ray.all > 0u) {
+        vec2 between = vec2(ray.begin, ray.end);
+        if (LAST_PARTIAL) {
+            ray.first = min(uint(between.x), ray.all - 1u);
+            ray.samples = min(uint(ceil(between.y)), ray.all);
+        } else {
+            uvec2 samples = uvec2(max(ceil(between - frame.offset), 0.0));
+            ray.first = samples.x;
+            ray.samples = min(samples.y, ray.all);
+            if (ray.first >= ray.samples) {
+                // Between two surfaces, and no sample there.
+                ray.first = 0u;
+                ray.samples = 0u;
+            }
+        }
+    }
+}
+#endif
 
 // The ray of this fragment's pixel, from what the first two passes stored [KW03 §2.1].
 Ray load_ray() {
@@ -41,7 +88,37 @@ Ray load_ray() {
     }
     ray.steps = unit.w * frame.inverse_step;
     ray.samples = uint(max(ceil(ray.steps - frame.offset), 0.0));
+#ifdef LAYERS
+    cut(ray);
+#endif
     return ray;
+}
+
+// The first sample of the segment for main pass `pass`.
+uint segment_begin(Ray ray, uint pass) {
+#ifdef LAYER_BEFORE
+    return max(pass * SAMPLES_PER_PASS, ray.first);
+#else
+    return pass * SAMPLES_PER_PASS;
+#endif
+}
+
+// One past the last sample of the segment that begins with sample `i`, where the ray has as many.
+uint segment_end(uint i) {
+#ifdef LAYER_BEFORE
+    return (i / SAMPLES_PER_PASS + 1u) * SAMPLES_PER_PASS;
+#else
+    return i + SAMPLES_PER_PASS;
+#endif
+}
+
+// Whether the part of the ray that is drawn begins behind the segment for main pass `pass`.
+bool begins_later(Ray ray, uint pass) {
+#ifdef LAYER_BEFORE
+    return (pass + 1u) * SAMPLES_PER_PASS <= ray.first && ray.first < ray.samples;
+#else
+    return false;
+#endif
 }
 
 // Steps from the entry point to sample `i`: from the index, never from adding steps up.

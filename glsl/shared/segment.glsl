@@ -6,12 +6,14 @@
 // Bring opacities from the reference length to the step.
 layout(constant_id = 4) const bool CORRECT_OPACITY = false;
 #endif
-// The last sample stands for what is left of the ray only.
-layout(constant_id = 5) const bool LAST_PARTIAL = false;
-
 // Steps that sample `i` stands for.
 float extent_of_sample(Ray ray, uint i) {
+#ifdef LAYERS
+    float to = min(i + 1 == ray.all ? ray.steps : float(i + 1), ray.end);
+    return LAST_PARTIAL ? to - max(float(i), ray.begin) : 1.0;
+#else
     return LAST_PARTIAL && i + 1 == ray.samples ? ray.steps - float(i) : 1.0;
+#endif
 }
 
 #ifdef PREINTEGRATED
@@ -19,8 +21,8 @@ float extent_of_sample(Ray ray, uint i) {
 // `i` stands for all values from its own to that of the next sample, or of the exit point.
 vec4 segment_color(Ray ray, uint pass) {
     vec4 segment = no_sample();
-    uint first = pass * SAMPLES_PER_PASS;
-    uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+    uint first = segment_begin(ray, pass);
+    uint end = min(pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
     float front = first < end ? node_of(sample_volume(ray, steps_to(first))) : 0.0;
     for (uint i = first; i < end; ++i) {
         float back = node_of(sample_volume(ray, min(steps_to(i + 1u), ray.steps)));
@@ -56,8 +58,8 @@ vec4 shade_sample(Ray ray, uint i) {
 // What the ray's segment for main pass `pass` brings to the pixel; nothing where the ray has left the volume.
 vec4 segment_color(Ray ray, uint pass) {
     vec4 segment = no_sample();
-    uint first = pass * SAMPLES_PER_PASS;
-    uint end = min(first + SAMPLES_PER_PASS, ray.samples);
+    uint first = segment_begin(ray, pass);
+    uint end = min(pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
     for (uint i = first; i < end; ++i) {
         segment = joined(segment, shade_sample(ray, i));
     }

@@ -139,7 +139,7 @@ fn picture(folder: &Path, file: &str) -> std::result::Result<Png, String> {
 
 /// `settings` as a file in `folder` has them: relative paths are relative to it, as in a scene file.
 pub fn settings_in(folder: &Path, mut settings: Settings) -> Settings {
-    for file in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
+    for file in settings.paths() {
         if file.is_relative() {
             *file = seen_from(folder, file).unwrap_or_else(|| file.clone());
         }

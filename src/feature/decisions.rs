@@ -3,6 +3,7 @@
 use super::block_ranges::BLOCK_RANGES;
 use super::distances::DISTANCES;
 use super::early_ends::EARLY_ENDS;
+use super::layers::cut;
 use super::reasons::{DENSE, ONLY_PASS, never_ends};
 use crate::part::rows::{Context, Feature, Why};
 use crate::scene::settings::Mark;
@@ -25,6 +26,10 @@ fn decisions(context: &Context) -> Result<(), Why> {
     let method = context.method;
     if context.form.is_none() {
         return Err(format!("{} culls no fragments", method.name).into());
+    }
+    // Polygons end rays as well.
+    if cut(context) {
+        return Ok(());
     }
     if !context.has(&EARLY_ENDS) && !skips(context) {
         let never_ends = never_ends(context);

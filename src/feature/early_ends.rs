@@ -23,6 +23,8 @@ fn needed(context: &Context) -> Result<(), Why> {
 pub fn may_end(context: &Context) -> bool {
     !context.plans()
         || match context.projection().ends {
+            // Polygons add to the opacity, each as much as it likes.
+            Ends::Opaque if context.layers > 0 => context.scene.settings.sampling.termination < 1.0,
             Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
             Ends::Reached => true,
             Ends::Never(_) => false,

@@ -14,6 +14,7 @@ mod extra_fetches;
 mod holes;
 mod interpolation;
 mod last_sample;
+pub mod layers;
 mod opacity_correction;
 mod preintegration;
 mod reasons;
@@ -25,6 +26,7 @@ pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
+pub use layers::{DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
 
 use crate::part::Constant;
@@ -37,12 +39,13 @@ use extra_fetches::EXTRA_FETCHES;
 use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
+use layers::{LAYER_BEFORE, LAYER_BEHIND};
 use opacity_correction::OPACITY_CORRECTION;
 use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 18] = [
+pub const FEATURES: [&Feature; 22] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -61,6 +64,10 @@ pub const FEATURES: [&Feature; 18] = [
     &COUNTING,
     &TRANSFER_FUNCTION,
     &EXTRA_FETCHES,
+    &DEPTH_LAYERS,
+    &LAYER_BEFORE,
+    &LAYER_BEHIND,
+    &OPAQUE_SURFACE,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

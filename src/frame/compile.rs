@@ -55,6 +55,7 @@ pub struct CompiledDraw {
 
 struct Compiler<'a> {
     device: &'a Arc<Device>,
+    scene: &'a Scene,
     plan: &'a Plan,
     resident: &'a mut Resident,
     targets: HashMap<Resource, Image>,
@@ -77,6 +78,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
     let scheduled = schedule(&steps, |resource| resource.format(formats));
     let mut compiler = Compiler {
         device,
+        scene,
         plan,
         resident,
         targets: targets(device, plan, formats)?,
@@ -120,7 +122,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
         *flags |= match access.usage {
             Usage::Color | Usage::ColorKept => vk::ImageUsageFlags::COLOR_ATTACHMENT,
             Usage::ColorInput => vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::INPUT_ATTACHMENT,
-            Usage::DepthWrite | Usage::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            Usage::DepthWrite | Usage::DepthTest | Usage::DepthAnew => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
             Usage::CopySource => vk::ImageUsageFlags::TRANSFER_SRC,
             Usage::CopyTarget => vk::ImageUsageFlags::TRANSFER_DST,
             _ => vk::ImageUsageFlags::SAMPLED,
@@ -153,7 +155,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
         .into_iter()
         .map(|(resource, usage)| {
             let info = ImageInfo {
-                name: resource.name().to_owned(),
+                name: resource.label(),
                 extent: [width, height, 1],
                 format: resource.format(formats),
                 usage,
@@ -202,7 +204,7 @@ impl Compiler<'_> {
             framebuffer,
             pipeline,
             set,
-            corners: (draw.geometry.range)(&self.plan.view),
+            corners: (draw.geometry.range)(self.scene, &self.plan.view),
         })
     }
 

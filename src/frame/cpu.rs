@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::structures::Structures;
 use crate::part::geometry::{Geometry, Hits, Sample};
-use crate::part::{Draw, Group, Work};
+use crate::part::{Draw, Group, Step, Work};
 use crate::plan::Plan;
 use crate::projection;
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ pub struct CpuFrame {
     /// may cover them or not.
     pub outline: u64,
     pub counts: Counts,
-    /// Rays that were not dead, each time they were counted.
+    /// Fragments of each counting step of the frame: rays that were not dead, pixels of a layer.
     pub rays_left: Vec<u64>,
     /// Main fragments that took a sample of non-zero opacity: no skipping can run fewer and keep the picture.
     pub ideal: u64,
@@ -32,25 +32,44 @@ pub struct CpuFrame {
 pub struct Counts {
     pub main: Vec<u64>,
     pub intermediate: Vec<u64>,
+    /// Of the parts of rays between layers, front to back; empty without polygons.
+    pub layers: Vec<LayerCounts>,
+}
+
+/// Fragments of the parts of rays that end at a layer, or behind all of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerCounts {
+    /// Pixels of the layer at which this part ends.
+    pub pixels: u64,
+    pub main: u64,
+    pub intermediate: u64,
 }
 
 impl Counts {
     pub fn new(passes: u32) -> Self {
-        Self { main: vec![0; passes as usize], intermediate: vec![0; passes as usize] }
+        Self { main: vec![0; passes as usize], intermediate: vec![0; passes as usize], layers: Vec::new() }
     }
 
-    /// The list a step of `group` counts for.
-    pub fn of(&mut self, group: Group) -> Option<&mut Vec<u64>> {
-        match group {
-            Group::Main => Some(&mut self.main),
-            Group::Intermediate => Some(&mut self.intermediate),
-            _ => None,
+    /// Counts the fragments of a step. Steps come in the order of their frame, in which polygons are peeled first.
+    pub fn add(&mut self, step: &Step, fragments: u64) {
+        let part = if step.group == Group::Blend { step.pass } else { step.section } as usize;
+        let peels = step.group == Group::Peel;
+        if peels || part >= self.layers.len() && !self.layers.is_empty() {
+            self.layers.resize(self.layers.len().max(part + 1), LayerCounts::default());
         }
-    }
-
-    fn add(&mut self, other: &Self) {
-        add(&mut self.main, &other.main);
-        add(&mut self.intermediate, &other.intermediate);
+        let layer = self.layers.get_mut(part).filter(|_| !peels);
+        match step.group {
+            Group::Main => {
+                self.main[step.pass as usize] += fragments;
+                layer.into_iter().for_each(|layer| layer.main += fragments);
+            }
+            Group::Intermediate => {
+                self.intermediate[step.pass as usize] += fragments;
+                layer.into_iter().for_each(|layer| layer.intermediate += fragments);
+            }
+            Group::Blend => layer.into_iter().for_each(|layer| layer.pixels += fragments),
+            _ => {}
+        }
     }
 }
 
@@ -77,64 +96,64 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         levels: projection.levels_in_x(scene),
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
-    let rows: Vec<CpuFrame> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();
+    let rows: Vec<(CpuFrame, Vec<u64>)> =
+        (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();
     let mut frame = CpuFrame::empty(plan);
-    for row in rows {
+    let mut fragments = vec![0; plan.frame().len()];
+    for (row, of_row) in rows {
         frame.pixels.extend(row.pixels);
         frame.undecided.extend(row.undecided);
         frame.outline += row.outline;
-        frame.counts.add(&row.counts);
-        add(&mut frame.rays_left, &row.rays_left);
+        add(&mut fragments, &of_row);
         frame.ideal += row.ideal;
     }
-    frame.end_early(plan);
+    frame.count(plan, &fragments);
     frame
 }
 
 impl CpuFrame {
     fn empty(plan: &Plan) -> Self {
-        let counted = plan.steps.iter().filter(|s| s.group == Group::Alive).count();
         Self {
             pixels: Vec::new(),
             undecided: Vec::new(),
             outline: 0,
             counts: Counts::new(plan.passes),
-            rays_left: vec![0; counted],
+            rays_left: Vec::new(),
             ideal: 0,
         }
     }
 
-    /// Takes away the counts of steps that are not run since no ray was left.
-    fn end_early(&mut self, plan: &Plan) {
-        let counted = plan.steps.iter().enumerate().filter(|(_, s)| s.group == Group::Alive);
-        let Some(((end, _), _)) = counted.zip(&self.rays_left).find(|(_, left)| **left == 0) else { return };
-        for step in &plan.steps[end..] {
-            if let Some(list) = self.counts.of(step.group) {
-                list[step.pass as usize] = 0;
+    /// Adds up the fragments of each step of the frame, but for those that are not run since the step they hang on counted
+    /// nothing.
+    fn count(&mut self, plan: &Plan, fragments: &[u64]) {
+        let steps = || plan.frame().iter().zip(fragments);
+        for (step, fragments) in steps() {
+            let runs = step.guard.is_none_or(|guard| self.rays_left[guard as usize] > 0);
+            let fragments = if runs { *fragments } else { 0 };
+            if step.group.counts() {
+                self.rays_left.push(fragments);
             }
+            self.counts.add(step, fragments);
         }
     }
 }
 
-fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> CpuFrame {
+/// A row of pixels, and the fragments that each step of the frame has there.
+fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u64>) {
     let mut frame = CpuFrame::empty(plan);
+    let mut fragments = vec![0; plan.frame().len()];
     for column in 0..plan.view.size[0] {
         let mut pixel = Pixel { column, row, ..Pixel::default() };
         let mut hits = Coverage::default();
-        let mut counted = 0;
-        for step in plan.frame() {
+        for (step, count) in plan.frame().iter().zip(&mut fragments) {
             let Work::Draw(draw) = &step.work else { continue };
-            let fragments = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
-            let runs = fragments > 0 && takes_part(draw, &pixel);
-            if step.group == Group::Alive {
-                frame.rays_left[counted] += u64::from(runs);
-                counted += 1;
+            let met = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
+            if met == 0 || !takes_part(draw, &pixel) {
+                continue;
             }
-            let Some(pass) = draw.twin.filter(|_| runs) else { continue };
-            let effect = pass(twin, &mut pixel, step.pass);
-            if let Some(list) = frame.counts.of(step.group) {
-                list[step.pass as usize] += 1;
-            }
+            twin.enter(&mut pixel, step.section);
+            let effect = draw.twin.map_or(Effect::Silent, |pass| pass(twin, &mut pixel, step.pass));
+            *count += u64::from(effect != Effect::Discarded);
             frame.ideal += u64::from(effect == Effect::Contributed);
         }
         let on_outline = hits.undecided();
@@ -142,7 +161,7 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> CpuFrame {
         frame.undecided.push(pixel.undecided || on_outline);
         frame.outline += u64::from(on_outline);
     }
-    frame
+    (frame, fragments)
 }
 
 /// Whether the fragment passes the step's tests. One rule for every form: stored <= bound.

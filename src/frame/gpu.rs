@@ -47,6 +47,11 @@ pub struct GpuFrame {
     accumulated_layout: vk::ImageLayout,
 }
 
+/// Whether a step hangs on one that counted nothing, as far as that is known.
+fn ended(step: &CompiledStep, counted: &[u64]) -> bool {
+    step.step.guard.is_some_and(|guard| counted.get(guard as usize) == Some(&0))
+}
+
 impl GpuFrame {
     /// Compiles `plan`. `early_end` is the device's best unless given.
     ///
@@ -64,8 +69,8 @@ impl GpuFrame {
         let mut plan = plan.clone();
         plan.steps.retain(|step| step.group != Group::Alive || early_end != EarlyEnd::Never);
         let compiled = compile(device, scene, &plan, resident)?;
-        let alive = compiled.steps.iter().filter(|s| s.step.group == Group::Alive).count();
-        let predicates = if early_end == EarlyEnd::Conditional { alive } else { 0 };
+        let counting = compiled.steps.iter().filter(|s| s.step.group.counts()).count();
+        let predicates = if early_end == EarlyEnd::Conditional { counting } else { 0 };
         Ok(Self {
             device: device.clone(),
             size: plan.view.size,
@@ -93,11 +98,16 @@ impl GpuFrame {
         self.device.set_step_names(self.step_names.clone());
         let mut run = FrameRun::default();
         let mut done = 0;
+        let mut counted = Vec::new();
         for batch in self.batches() {
-            done = batch.end;
-            run.record_ms += self.run_batch(batch.clone(), measure)?;
-            if self.early_end == EarlyEnd::ReadBack && !self.rays_left(done)? {
+            // Nothing of it nor of what follows has anything to do.
+            if self.compiled.steps[batch.start..].iter().all(|s| ended(s, &counted)) {
                 break;
+            }
+            done = batch.end;
+            run.record_ms += self.run_batch(batch, measure, &counted)?;
+            if self.early_end == EarlyEnd::ReadBack && self.compiled.steps[done - 1].step.group.counts() {
+                counted.push(self.queries.fragments(done - 1)?);
             }
         }
         run.cpu_ms = cpu.elapsed().as_secs_f64() * 1e3;
@@ -115,7 +125,7 @@ impl GpuFrame {
         let mut ends: Vec<usize> = match self.early_end {
             EarlyEnd::Conditional | EarlyEnd::Never => Vec::new(),
             EarlyEnd::ReadBack => {
-                let counts = |(i, s): (usize, &CompiledStep)| (s.step.group == Group::Alive).then_some(i + 1);
+                let counts = |(i, s): (usize, &CompiledStep)| s.step.group.counts().then_some(i + 1);
                 steps.iter().enumerate().filter_map(counts).collect()
             }
         };
@@ -126,21 +136,21 @@ impl GpuFrame {
         begins.zip(ends.iter().copied()).map(|(a, b)| a..b).filter(|r| !r.is_empty()).collect()
     }
 
-    /// Records and submits a batch and waits for it; the CPU time of recording and submitting, milliseconds.
-    fn run_batch(&mut self, batch: Range<usize>, measure: Measure) -> Result<f64> {
+    /// Records and submits a batch and waits for it; the CPU time of recording and submitting, milliseconds. `counted`: what
+    /// counting steps before it counted, where the host knows.
+    fn run_batch(&mut self, batch: Range<usize>, measure: Measure, counted: &[u64]) -> Result<f64> {
         let begin = ThreadTime::now();
         let mut commands = Commands::begin(&self.device, &self.device.graphics, "frame")?;
         if batch.start == 0 {
             self.queries.reset(&mut commands);
         }
         let steps = &self.compiled.steps;
-        let counted_before = |i: usize| steps[..i].iter().filter(|s| s.step.group == Group::Alive).count();
-        let mut alive = counted_before(batch.start);
+        let mut counting = steps[..batch.start].iter().filter(|s| s.step.group.counts()).count();
         for i in batch {
-            self.record(&mut commands, i, alive.checked_sub(1), measure)?;
-            if steps[i].step.group == Group::Alive {
-                self.queries.record_rays_left(&mut commands, i, alive);
-                alive += 1;
+            self.record(&mut commands, i, measure, ended(&steps[i], counted));
+            if steps[i].step.group.counts() {
+                self.queries.record_rays_left(&mut commands, i, counting);
+                counting += 1;
             }
         }
         let recorded = commands.finish()?;
@@ -150,8 +160,8 @@ impl GpuFrame {
         Ok(ms)
     }
 
-    /// Step `i`; drawn only while rays were left when they were counted for the time `predicate`.
-    fn record(&self, commands: &mut Commands, i: usize, predicate: Option<usize>, measure: Measure) -> Result<()> {
+    /// Step `i`; of one that has `ended` the attachments alone.
+    fn record(&self, commands: &mut Commands, i: usize, measure: Measure, ended: bool) {
         let compiled = &self.compiled.steps[i];
         let step = &compiled.step;
         commands.label_begin(&step.name);
@@ -165,7 +175,7 @@ impl GpuFrame {
             commands.image_barrier(image, barrier.source, barrier.target, barrier.before, barrier.after);
         }
         match &step.work {
-            Work::Draw(draw) => self.record_draw(commands, i, draw, predicate, measure),
+            Work::Draw(draw) => self.record_draw(commands, i, draw, measure, ended),
             Work::Copy { from, to, .. } => self.record_copy(commands, *from, *to),
             Work::Clear(resource) => {
                 commands.clear_color(&self.compiled.targets[resource]);
@@ -177,14 +187,13 @@ impl GpuFrame {
             commands.timestamp(pool, 2 * i as u32 + 1);
         }
         commands.label_end();
-        Ok(())
     }
 
-    fn record_draw(&self, commands: &mut Commands, i: usize, draw: &Draw, predicate: Option<usize>, measure: Measure) {
+    fn record_draw(&self, commands: &mut Commands, i: usize, draw: &Draw, measure: Measure, ended: bool) {
         let compiled = &self.compiled.steps[i];
         let Some(objects) = &compiled.draw else { return };
         let area = self.area();
-        let counting = matches!(measure, Measure::Counts { .. }) || compiled.step.group == Group::Alive;
+        let counting = matches!(measure, Measure::Counts { .. }) || compiled.step.group.counts();
         let statistics = self.queries.statistics(measure);
         commands.begin_render_pass(&objects.render_pass, &objects.framebuffer, area, &objects.clears);
         commands.bind_graphics(&objects.pipeline, &objects.set);
@@ -207,11 +216,13 @@ impl GpuFrame {
         if counting {
             commands.begin_query(self.queries.occlusion(), i as u32);
         }
-        let conditional = self.queries.predicates().zip(predicate);
+        let conditional = self.queries.predicates().zip(compiled.step.guard);
         if let Some((buffer, at)) = conditional {
-            commands.begin_conditional(buffer, 4 * at as u64);
+            commands.begin_conditional(buffer, 4 * u64::from(at));
         }
-        commands.draw(objects.corners.start, objects.corners.len() as u32);
+        if !ended {
+            commands.draw(objects.corners.start, objects.corners.len() as u32);
+        }
         if conditional.is_some() {
             commands.end_conditional();
         }
@@ -234,15 +245,6 @@ impl GpuFrame {
         commands.copy_image_to_buffer(&self.compiled.targets[&from], buffer, texels);
         commands.buffer_barrier(buffer, write, read);
         commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], texels);
-    }
-
-    /// Whether the step before `done` counted any ray, where it counted.
-    fn rays_left(&self, done: usize) -> Result<bool> {
-        let last = done - 1;
-        if self.compiled.steps[last].step.group != Group::Alive {
-            return Ok(true);
-        }
-        Ok(self.queries.fragments(last)? > 0)
     }
 
     /// RES as the last run left it: premultiplied RGBA, row 0 on top, transparent where the box is not.

@@ -18,7 +18,7 @@ mod upload;
 
 pub use background::{Background, ServedDistance};
 pub use choice::plan_on;
-pub use cpu::{Counts, CpuFrame};
+pub use cpu::{Counts, CpuFrame, LayerCounts};
 pub use gpu::{EarlyEnd, GpuFrame};
 pub use queries::{FrameRun, Measure};
 pub use resident::Resident;

@@ -161,9 +161,11 @@ impl FrameQueries {
     fn counts(&self, pool: &QueryPool, steps: &[CompiledStep]) -> Result<Counts> {
         let mut counts = Counts::new(self.passes);
         for (i, compiled) in steps.iter().enumerate() {
-            if let Some(list) = counts.of(compiled.step.group) {
-                list[compiled.step.pass as usize] += pool.read(i as u32..i as u32 + 1)?[0];
-            }
+            let fragments = match compiled.step.group {
+                Group::Main | Group::Intermediate | Group::Blend => pool.read(i as u32..i as u32 + 1)?[0],
+                _ => 0,
+            };
+            counts.add(&compiled.step, fragments);
         }
         Ok(counts)
     }

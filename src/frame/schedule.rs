@@ -109,17 +109,17 @@ fn attachment(
     after: vk::ImageLayout,
     used_later: bool,
 ) -> Attachment {
-    let first = before == vk::ImageLayout::UNDEFINED;
+    let first = before == vk::ImageLayout::UNDEFINED || usage == Usage::DepthAnew;
     // A read-only layout cannot be cleared.
     let usage_now = if first && usage == Usage::DepthTest { Usage::DepthWrite } else { usage };
     let read_only = matches!(usage_now, Usage::DepthTest | Usage::ColorKept);
     // The picture is read back after the last step.
-    let kept = used_later || resource == resource::ACCUMULATED;
+    let kept = used_later && usage != Usage::DepthAnew || resource == resource::ACCUMULATED;
     Attachment {
         name: resource.name().to_owned(),
         format,
         role: match usage {
-            _ if resource == resource::STORED => Role::Depth,
+            _ if usage.is_depth() => Role::Depth,
             Usage::ColorInput => Role::ColorInput,
             _ => Role::Color,
         },
@@ -130,7 +130,7 @@ fn attachment(
             (false, true) => vk::AttachmentStoreOp::STORE,
             (false, false) => vk::AttachmentStoreOp::DONT_CARE,
         },
-        before,
+        before: if usage == Usage::DepthAnew { vk::ImageLayout::UNDEFINED } else { before },
         during: usage_now.layout(),
         after,
     }

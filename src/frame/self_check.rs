@@ -157,7 +157,8 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     let field = Field::new(builtin::volume("shells:24")?, None, NanPolicy::Replace)?;
     let transfer =
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
-    Ok(Scene { settings, field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
+    let (field, polygons, unit) = (Arc::new(field), Arc::default(), TextureUnit::default());
+    Ok(Scene { settings, field, transfer, camera, polygons, unit })
 }
 
 struct FormRun {

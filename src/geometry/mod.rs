@@ -2,6 +2,10 @@
 //!
 //! To add one: a file here with its row, its vertex shader in `glsl`, and a row for its corners in [`mod@crate::resource`].
 
+mod polygons;
+mod screen;
 mod volume_box;
 
+pub use polygons::{OPAQUE_POLYGONS, TRANSPARENT_POLYGONS};
+pub use screen::SCREEN;
 pub use volume_box::{BOX_BACK, BOX_FRONT};

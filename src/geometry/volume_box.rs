@@ -8,12 +8,12 @@ use crate::resource;
 use crate::scene::Scene;
 
 /// Its front faces with the cap of the near plane: where rays enter.
-pub static BOX_FRONT: Geometry = Geometry { name: "front faces", range: |view| 0..view.front.len() as u32, ..BOX };
+pub static BOX_FRONT: Geometry = Geometry { name: "front faces", range: |_, view| 0..view.front.len() as u32, ..BOX };
 
 /// Its back faces: where rays leave.
 pub static BOX_BACK: Geometry = Geometry {
     name: "back faces",
-    range: |view| {
+    range: |_, view| {
         let front = view.front.len() as u32;
         front..front + view.back.len() as u32
     },
@@ -26,7 +26,7 @@ const BOX: Geometry = Geometry {
     vertex: "box.vert",
     vertices: resource::BOX,
     corner: vk::Format::R32G32B32_SFLOAT,
-    range: |_| 0..0,
+    range: |_, _| 0..0,
     hits,
 };
 

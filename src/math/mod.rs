@@ -1,6 +1,7 @@
 //! Formulas that the passes, the reference and the structures share: rays and boxes, interpolation, opacity, blending.
 
 pub mod blend;
+pub mod bvh;
 pub mod interpolate;
 pub mod opacity;
 pub mod polyhedron;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::frame::LayerCounts;
 use crate::plan::Plan;
 use crate::scene::texture::TextureChoice;
 
@@ -12,6 +13,18 @@ pub struct CountsRecord {
     pub intermediate: u64,
     pub main_per_pass: Vec<u64>,
     pub intermediate_per_pass: Vec<u64>,
+    /// Of the parts of rays between layers of polygons, front to back; absent where there are no polygons.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub per_layer: Vec<LayerRecord>,
+}
+
+/// Fragments of the parts of rays that end at a layer, or behind all of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LayerRecord {
+    /// Pixels of the layer at which this part ends.
+    pub pixels: u64,
+    pub main: u64,
+    pub intermediate: u64,
 }
 
 impl CountsRecord {
@@ -23,7 +36,15 @@ impl CountsRecord {
             intermediate: sum(&intermediate_per_pass),
             main_per_pass,
             intermediate_per_pass,
+            per_layer: Vec::new(),
         }
+    }
+
+    /// The same with what each part of rays between layers has.
+    pub fn with_layers(self, layers: &[LayerCounts]) -> Self {
+        let record =
+            |one: &LayerCounts| LayerRecord { pixels: one.pixels, main: one.main, intermediate: one.intermediate };
+        Self { per_layer: layers.iter().map(record).collect(), ..self }
     }
 }
 

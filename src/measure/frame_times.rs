@@ -34,7 +34,10 @@ pub fn pass_times(timed: &[FrameRun], passes: u32) -> Option<PassTimes> {
     let of = |group: Group| -> Vec<f64> {
         (0..passes)
             .map(|pass| {
-                let here = |r: &FrameRun| r.step_ms.iter().find(|s| s.0 == group && s.1 == pass).map(|s| s.2);
+                // A pass runs once for each part of rays between layers.
+                let here = |r: &FrameRun| {
+                    r.step_ms.iter().filter(|s| s.0 == group && s.1 == pass).map(|s| s.2).reduce(|a, b| a + b)
+                };
                 let samples: Vec<f64> = timed.iter().filter_map(here).collect();
                 Timing::of(&samples).map_or(0.0, |t| t.value)
             })

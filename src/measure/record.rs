@@ -47,7 +47,8 @@
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
-//! passes}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}
+//! passes; where there are polygons `per_layer`: array of {`pixels`, `main`, `intermediate`} of the parts of rays that end at
+//! each layer}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}
 //! beside it: smallest, largest, median absolute deviation (milliseconds) and number of samples. So has every
 //! `..._ms` of a run. *error*: see [`ErrorRecord`].
 

@@ -16,7 +16,8 @@ use super::timing::Timing;
 use super::warnings::warnings;
 use crate::error::{Error, Result};
 use crate::frame::{
-    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, plan_on,
+    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, LayerCounts, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
+    plan_on,
 };
 use crate::method;
 use crate::part::form::Form;
@@ -199,7 +200,8 @@ impl<'a> Runner<'a> {
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = entry.plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
-        let counted = |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate);
+        let counted =
+            |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate).with_layers(&counts.layers);
         let run = Run {
             version: FORMAT,
             scene: self.name.clone(),
@@ -260,6 +262,7 @@ impl<'a> Runner<'a> {
                 notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
             }
         }
+        notes.extend(parts_between_layers(&entry.counts));
         if entry.plan.method.skips_blocks() {
             let first = entry.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
@@ -284,8 +287,23 @@ impl<'a> Runner<'a> {
         let there = self.resident.iter().flat_map(|resident| resident.bytes(&entry.plan));
         let shared = there.filter(|_| entry.frame.is_some());
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
-        shared.chain(own).map(|(r, bytes)| (r.name().to_owned(), bytes)).collect()
+        let mut memory = BTreeMap::new();
+        // Several of a kind are one line.
+        shared.chain(own).for_each(|(r, bytes)| *memory.entry(r.name().to_owned()).or_default() += bytes);
+        memory
     }
+}
+
+/// What each part of rays between layers of polygons has.
+fn parts_between_layers(run: &FrameRun) -> Option<String> {
+    let layers = &run.fragments.as_ref()?.layers;
+    let told = |(i, layer): (usize, &LayerCounts)| {
+        let place = if i == 0 { "in front".to_owned() } else { format!("behind layer {}", i - 1) };
+        let LayerCounts { pixels, main, intermediate } = layer;
+        format!("{place} {main} main and {intermediate} intermediate, up to {pixels} pixels of polygons")
+    };
+    let parts: Vec<String> = layers.iter().enumerate().map(told).collect();
+    (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 
 fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {

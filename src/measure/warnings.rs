@@ -16,9 +16,26 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
                 .to_owned(),
         );
     }
+    warnings.extend(layers_left(scene, plan));
     warnings.extend(background_left(scene, plan));
     warnings.extend(clipped(picture));
     warnings
+}
+
+/// That more surfaces lie behind each other than are peeled.
+fn layers_left(scene: &Scene, plan: &Plan) -> Option<String> {
+    let most = scene.settings.layers.most;
+    let lacking = scene.polygons.lacking(&plan.view.rays, plan.view.size, most);
+    let (pixels, layers) = (lacking.iter().filter(|n| **n > 0).count(), lacking.iter().max().copied().unwrap_or(0));
+    (pixels > 0).then(|| {
+        let number = |n: usize, one: &str, more: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {more}") };
+        format!(
+            "{} layers of transparent polygons, up to {}, since {most} are peeled: what lies behind is drawn without them; \
+             raise layers.most (--layers)",
+            number(pixels, "pixel lacks", "pixels lack"),
+            number(layers as usize, "layer", "of them"),
+        )
+    })
 }
 
 /// How much of the background stays where rays end early.

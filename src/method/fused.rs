@@ -1,7 +1,7 @@
 //! `nn-*+fused`: near-neighbor skipping, intermediate passes after the first merged into the main passes [Thesis §5.7].
 
 use super::near_neighbor::by;
-use super::rows::{begin, decided, empty, unswitched};
+use super::rows::{cast, decided, empty, unswitched};
 use crate::feature::{DECISIONS, MARK_COPIES};
 use crate::part::rows::{Context, Method};
 use crate::part::steps::Steps;
@@ -11,7 +11,11 @@ use crate::resource;
 use crate::scene::settings::Distance;
 
 const fn row(distance: Distance, name: &'static str, about: &'static str) -> Method {
-    Method { fused: true, steps, ..by(distance, name, about, "Thesis §5.7") }
+    Method {
+        fused: true,
+        steps: |context, steps| cast(context, steps, passes),
+        ..by(distance, name, about, "Thesis §5.7")
+    }
 }
 
 pub const NN_OMNI_FUSED: Method =
@@ -26,9 +30,8 @@ pub const NN_OPTIMAL_FUSED: Method =
 pub const NN_CONE_FUSED: Method = row(Distance::Cone, "nn-cone+fused", "nn-cone, its passes merged in the same way");
 
 /// One intermediate pass, then main passes that mark where rays go on.
-fn steps(context: &Context, steps: &mut Steps) {
+fn passes(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
-    begin(context, steps);
     empty(context, steps);
     steps.push(near_neighbor(context, 0, form));
     for pass in 0..context.passes {

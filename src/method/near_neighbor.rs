@@ -1,6 +1,6 @@
 //! `nn-*`: near-neighbor skipping [Thesis §5.3, §5.3.1, §5.7].
 
-use super::rows::{BOUNDS, RAY_CASTER, begin, culled_forms, decided, empty, unswitched};
+use super::rows::{BOUNDS, RAY_CASTER, cast, culled_forms, decided, empty, unswitched};
 use crate::feature::DECISIONS;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
@@ -18,7 +18,7 @@ pub(super) const fn by(distance: Distance, name: &'static str, about: &'static s
         papers: BOUNDS,
         forms: culled_forms,
         ahead: Ahead::Distances(distance),
-        steps,
+        steps: |context, steps| cast(context, steps, passes),
         ..RAY_CASTER
     }
 }
@@ -48,9 +48,8 @@ pub const NN_CONE: Method = by(
 );
 
 /// An intermediate pass before each main pass, both for rays whose section begins at or before it.
-fn steps(context: &Context, steps: &mut Steps) {
+fn passes(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
-    begin(context, steps);
     empty(context, steps);
     for pass in 0..context.passes {
         steps.push(near_neighbor(context, pass, form));

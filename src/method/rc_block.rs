@@ -1,8 +1,9 @@
 //! `rc-block`: `rc-ert` with skipping of empty 8^3 blocks [KW03 §2.3].
 
-use super::rows::{RAY_CASTER, switched};
+use super::rows::{RAY_CASTER, cast, switched};
 use crate::feature::BLOCK_RANGES;
-use crate::part::rows::{Ahead, Method};
+use crate::part::rows::{Ahead, Context, Method};
+use crate::part::steps::Steps;
 use crate::pass::block_skip::block_skip;
 use crate::pass::termination::termination;
 
@@ -11,9 +12,13 @@ pub const RC_BLOCK: Method = Method {
     about: "rc-ert with skipping of empty 8^3 blocks",
     source: "KW03 §2.3",
     ahead: Ahead::Blocks,
-    steps: |context, steps| match context.has(&BLOCK_RANGES) {
-        true => switched(context, steps, u32::from(!context.scene.settings.method.block_first), block_skip),
-        false => switched(context, steps, 1, termination),
-    },
+    steps: |context, steps| cast(context, steps, passes),
     ..RAY_CASTER
 };
+
+fn passes(context: &Context, steps: &mut Steps) {
+    match context.has(&BLOCK_RANGES) {
+        true => switched(context, steps, u32::from(!context.scene.settings.method.block_first), block_skip),
+        false => switched(context, steps, 1, termination),
+    }
+}

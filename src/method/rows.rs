@@ -6,7 +6,7 @@ use crate::part::form::Form;
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::{alive, clear, direction, entry, main_pass, mark_copy, start};
+use crate::pass::{alive, clear, direction, entry, layer, main_pass, mark_copy, peel, start};
 use crate::scene::settings::{Cull, Mark};
 
 /// Steps before the first main pass, and room for the uploads and builds that a plan puts in front of them: some thirty at
@@ -34,7 +34,7 @@ pub const RAY_CASTER: Method = Method {
     on_device: true,
     ahead: Ahead::Nothing,
     fused: false,
-    steps: unswitched,
+    steps: |context, steps| cast(context, steps, unswitched),
 };
 
 /// Every way to cull with every way to mark.
@@ -63,21 +63,54 @@ pub fn begin(context: &Context, steps: &mut Steps) {
 
 /// Empties RES where an intermediate pass reads it before the first main pass, unless rays begin with something.
 pub fn empty(context: &Context, steps: &mut Steps) {
-    if context.has(&EARLY_ENDS) && !context.has(&START) {
+    if context.section == 0 && context.has(&EARLY_ENDS) && !context.has(&START) {
         steps.push(clear::clear());
     }
 }
 
+/// A frame of rays: `passes` for each part of them, with the polygons between.
+pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Steps)) {
+    if context.passes > 0 {
+        begin(context, steps);
+    }
+    let guards = peel(context, steps);
+    for part in context.sections() {
+        // Without the layer in front there is nothing behind it.
+        let guard = part.section.checked_sub(1).map(|layer| guards[layer as usize]);
+        steps.enter(part.section, guard);
+        if context.passes > 0 {
+            passes(&part, steps);
+        }
+        steps.enter(0, guard);
+        steps.extend((part.section < context.layers).then(|| layer::layer(part.section)));
+    }
+    steps.enter(0, None);
+    steps.extend(context.opaque.then(|| layer::opaque(context.layers)));
+}
+
+/// Polygons: the opaque ones once, the transparent ones layer by layer. For each layer the number of the step that counts it.
+fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
+    steps.extend(context.opaque.then(|| peel::opaque(context)));
+    // Each layer hangs on the one in front of it, not on opaque polygons.
+    steps.enter(0, None);
+    (0..context.layers)
+        .map(|layer| {
+            steps.push(peel::transparent(context, layer));
+            layer + u32::from(context.opaque)
+        })
+        .collect()
+}
+
 /// Main passes that run for every fragment.
 pub fn unswitched(context: &Context, steps: &mut Steps) {
-    begin(context, steps);
     steps.extend((0..context.passes).map(|pass| main_pass::main_pass(context, pass, None)));
 }
 
 /// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
 pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Context, u32, Form) -> Step) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
-    begin(context, steps);
+    // Behind a layer many rays have nothing to do.
+    let first = if context.section > 0 { 0 } else { first };
     if first == 0 {
         empty(context, steps);
     }

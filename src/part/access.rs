@@ -15,6 +15,8 @@ pub enum Usage {
     ColorKept,
     DepthWrite,
     DepthTest,
+    /// Tested and written from a clear on, and not needed afterwards.
+    DepthAnew,
     /// Read by the fragment shader.
     Sampled,
     Vertices,
@@ -42,7 +44,13 @@ impl Usage {
     pub fn writes(self) -> bool {
         matches!(
             self,
-            Self::Color | Self::ColorInput | Self::DepthWrite | Self::CopyTarget | Self::ComputeWrite | Self::Upload
+            Self::Color
+                | Self::ColorInput
+                | Self::DepthWrite
+                | Self::DepthAnew
+                | Self::CopyTarget
+                | Self::ComputeWrite
+                | Self::Upload
         )
     }
 
@@ -53,7 +61,12 @@ impl Usage {
 
     /// Whether it is as an attachment of a render pass.
     pub fn is_attachment(self) -> bool {
-        matches!(self, Self::Color | Self::ColorInput | Self::ColorKept | Self::DepthWrite | Self::DepthTest)
+        matches!(self, Self::Color | Self::ColorInput | Self::ColorKept) || self.is_depth()
+    }
+
+    /// Whether it is as the depth attachment.
+    pub fn is_depth(self) -> bool {
+        matches!(self, Self::DepthWrite | Self::DepthTest | Self::DepthAnew)
     }
 
     /// The layout an image has meanwhile.
@@ -61,7 +74,7 @@ impl Usage {
         match self {
             Self::Color | Self::ColorKept => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
             Self::ColorInput => vk::ImageLayout::GENERAL,
-            Self::DepthWrite => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+            Self::DepthWrite | Self::DepthAnew => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             Self::CopySource => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             Self::CopyTarget => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
@@ -82,7 +95,9 @@ impl Usage {
                 S::COLOR_ATTACHMENT_OUTPUT | S::FRAGMENT_SHADER,
                 A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE | A::INPUT_ATTACHMENT_READ,
             ),
-            Self::DepthWrite => (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ | A::DEPTH_STENCIL_ATTACHMENT_WRITE),
+            Self::DepthWrite | Self::DepthAnew => {
+                (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ | A::DEPTH_STENCIL_ATTACHMENT_WRITE)
+            }
             Self::DepthTest => (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ),
             Self::Sampled => (S::FRAGMENT_SHADER, A::SHADER_READ),
             Self::Vertices => (S::VERTEX_ATTRIBUTE_INPUT, A::VERTEX_ATTRIBUTE_READ),

@@ -21,7 +21,7 @@ pub struct Geometry {
     /// The format of a corner, which is all that the vertex shader reads.
     pub corner: vk::Format,
     /// Which corners of the buffer are drawn, three a triangle.
-    pub range: fn(&View) -> Range<u32>,
+    pub range: fn(&Scene, &View) -> Range<u32>,
     /// The fragments of a pixel, in f64.
     pub hits: fn(&Scene, &ViewRays, Sample) -> Hits,
 }

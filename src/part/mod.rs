@@ -30,6 +30,10 @@ pub struct Step {
     pub group: Group,
     /// The main pass this step is, or decides about.
     pub pass: u32,
+    /// The part of each ray it is about: that behind so many layers.
+    pub section: u32,
+    /// The counting step, by its place among those of the frame, without whose fragments this one has nothing to do.
+    pub guard: Option<u32>,
     /// What it reads and writes; layouts, barriers, load and store ops follow from it.
     pub accesses: Arc<Vec<Access>>,
     pub work: Work,
@@ -38,7 +42,12 @@ pub struct Step {
 impl Step {
     /// A step that draws.
     pub fn drawn(name: String, group: Group, pass: u32, accesses: Vec<Access>, draw: Draw) -> Self {
-        Self { name, group, pass, accesses: accesses.into(), work: Work::Draw(draw) }
+        Self::new(name, group, pass, accesses, Work::Draw(draw))
+    }
+
+    /// A step about whole rays that hangs on no other.
+    pub fn new(name: String, group: Group, pass: u32, accesses: Vec<Access>, work: Work) -> Self {
+        Self { name, group, pass, section: 0, guard: None, accesses: accesses.into(), work }
     }
 
     /// The pass without its number: `main_pass`.
@@ -52,8 +61,12 @@ impl Step {
 pub enum Group {
     /// Once a frame, before the first main pass.
     Setup,
+    /// Depth layers of polygons, one a step.
+    Peel,
     Main,
     Intermediate,
+    /// Colours of layers, and of opaque polygons, under what is in front of them.
+    Blend,
     /// Marks to the depth buffer.
     Copy,
     /// Counting the rays that are left.
@@ -65,13 +78,29 @@ pub enum Group {
 }
 
 impl Group {
-    pub const ALL: [Self; 7] =
-        [Self::Upload, Self::Structure, Self::Setup, Self::Main, Self::Intermediate, Self::Copy, Self::Alive];
+    pub const ALL: [Self; 9] = [
+        Self::Upload,
+        Self::Structure,
+        Self::Setup,
+        Self::Peel,
+        Self::Main,
+        Self::Intermediate,
+        Self::Blend,
+        Self::Copy,
+        Self::Alive,
+    ];
+
+    /// Whether fragments of its steps are counted in every run, so that others may hang on them.
+    pub fn counts(self) -> bool {
+        matches!(self, Self::Alive | Self::Peel)
+    }
 
     pub fn name(self) -> &'static str {
         match self {
             Self::Structure => "structure",
             Self::Setup => "setup",
+            Self::Peel => "peel",
+            Self::Blend => "blend",
             Self::Main => "main",
             Self::Intermediate => "intermediate",
             Self::Copy => "copy",

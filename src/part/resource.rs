@@ -115,6 +115,11 @@ impl Resource {
         self.of.name
     }
 
+    /// The name, of images that frames draw into with their index.
+    pub fn label(self) -> String {
+        if self.is_target() { format!("{self:?}") } else { self.name().to_owned() }
+    }
+
     /// Whether every frame writes it anew, at the size of the picture.
     pub fn is_target(self) -> bool {
         matches!(self.of.kind, ResourceKind::Target(_))

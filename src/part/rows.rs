@@ -131,6 +131,8 @@ impl From<String> for Why {
 /// The place in a shader where a feature does its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hook {
+    /// Where it is known which part of a ray is drawn.
+    Ray,
     /// Where samples are taken and classified.
     Sample,
     /// Where it is decided which rays go on.
@@ -191,13 +193,37 @@ pub struct Context<'a> {
     pub form: Option<Form>,
     /// N, main passes.
     pub passes: u32,
+    /// Depth layers of transparent polygons, at the most; 0 where there are no such polygons.
+    pub layers: u32,
+    /// Whether there are opaque polygons.
+    pub opaque: bool,
+    /// The part of each ray that is drawn: that behind so many layers.
+    pub section: u32,
     /// Answers of features that were asked before, by their names: some go through the whole volume.
     answers: RefCell<HashMap<&'static str, Result<(), Why>>>,
 }
 
 impl<'a> Context<'a> {
     pub fn new(scene: &'a Scene, view: &'a View, method: &'static Method, form: Option<Form>, passes: u32) -> Self {
-        Self { scene, view, method, form, passes, answers: RefCell::default() }
+        let polygons = &scene.polygons;
+        let layers = if polygons.transparent().is_empty() { 0 } else { scene.settings.layers.most };
+        let opaque = !polygons.opaque().is_empty();
+        Self { scene, view, method, form, passes, layers, opaque, section: 0, answers: RefCell::default() }
+    }
+
+    /// The parts of rays that are drawn one after the other, the one in front of all layers first.
+    pub fn sections(&self) -> impl Iterator<Item = Self> {
+        (0..=self.layers).map(|section| Self {
+            section,
+            answers: self.answers.clone(),
+            scene: self.scene,
+            view: self.view,
+            method: self.method,
+            form: self.form,
+            passes: self.passes,
+            layers: self.layers,
+            opaque: self.opaque,
+        })
     }
 
     /// Whether the frame has a feature.
@@ -207,6 +233,10 @@ impl<'a> Context<'a> {
 
     /// Whether the frame has a feature, else why not.
     pub fn answer(&self, feature: &Feature) -> Result<(), Why> {
+        // It differs from part to part of a ray, and is soon answered.
+        if feature.at == Hook::Ray {
+            return (feature.needed)(self);
+        }
         if let Some(known) = self.answers.borrow().get(feature.name) {
             return known.clone();
         }

@@ -13,6 +13,12 @@ use crate::glsl::Shader;
 #[derive(Default)]
 pub struct Steps {
     list: Vec<Step>,
+    /// The part of each ray that steps are about.
+    section: u32,
+    /// The counting step that steps hang on.
+    guard: Option<u32>,
+    /// Counting steps so far.
+    counted: u32,
     accesses: HashSet<Arc<Vec<Access>>>,
     constants: HashSet<Arc<Vec<Constant>>>,
     shaders: HashSet<Arc<Shader>>,
@@ -29,8 +35,21 @@ impl Steps {
         self.list
     }
 
-    /// Adds a step.
+    /// Steps that follow are about the part of each ray behind so many layers, and hang on a counting step.
+    pub fn enter(&mut self, section: u32, guard: Option<u32>) {
+        (self.section, self.guard) = (section, guard);
+    }
+
+    /// Adds a step. Those that follow a counting one hang on it.
     pub fn push(&mut self, mut step: Step) {
+        (step.section, step.guard) = (self.section, self.guard);
+        if step.section > 0 {
+            step.name = format!("{} behind layer {}", step.name, step.section - 1);
+        }
+        if step.group.counts() {
+            self.guard = Some(self.counted);
+            self.counted += 1;
+        }
         share(&mut self.accesses, &mut step.accesses);
         if let Work::Draw(draw) = &mut step.work {
             share(&mut self.constants, &mut draw.constants);

@@ -19,12 +19,12 @@ const ALIVE: f32 = 0.75;
 pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::DepthTest.of(resource::STORED)];
     accesses.extend(beside.map(|target| Usage::ColorKept.of(target)));
-    Step {
-        name: format!("alive #{pass}"),
-        group: Group::Alive,
+    Step::new(
+        format!("alive #{pass}"),
+        Group::Alive,
         pass,
-        accesses: accesses.into(),
-        work: Work::Draw(Draw {
+        accesses,
+        Work::Draw(Draw {
             geometry: &BOX_FRONT,
             depth: ALIVE,
             bound: ALIVE,
@@ -34,5 +34,5 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
             blend: Blend::Replace,
             twin: None,
         }),
-    }
+    )
 }

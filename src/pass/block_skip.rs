@@ -20,9 +20,12 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
     ];
+    accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::Decide));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     let mut draw = Draw::plain(&BOX_FRONT, "block_skip.frag", twin::block_skip::block_skip);
+    draw.define(feature::defines(context, Hook::Ray));
+    draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(EARLY_ENDS.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

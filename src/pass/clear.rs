@@ -5,11 +5,11 @@ use crate::part::{Group, Step, Work};
 use crate::resource;
 
 pub fn clear() -> Step {
-    Step {
-        name: "clear".to_owned(),
-        group: Group::Setup,
-        pass: 0,
-        accesses: vec![Usage::CopyTarget.of(resource::ACCUMULATED)].into(),
-        work: Work::Clear(resource::ACCUMULATED),
-    }
+    Step::new(
+        "clear".to_owned(),
+        Group::Setup,
+        0,
+        vec![Usage::CopyTarget.of(resource::ACCUMULATED)],
+        Work::Clear(resource::ACCUMULATED),
+    )
 }

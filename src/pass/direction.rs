@@ -7,17 +7,16 @@ use crate::resource;
 use crate::twin;
 
 pub fn direction() -> Step {
-    Step {
-        name: "direction".to_owned(),
-        group: Group::Setup,
-        pass: 0,
-        accesses: vec![
+    Step::new(
+        "direction".to_owned(),
+        Group::Setup,
+        0,
+        vec![
             Usage::Vertices.of(resource::BOX),
             Usage::Sampled.of(resource::FRAME),
             Usage::Sampled.of(resource::ENTRY),
             Usage::Color.of(resource::DIRECTION),
-        ]
-        .into(),
-        work: Work::Draw(Draw::plain(&BOX_BACK, "direction.frag", twin::direction::direction)),
-    }
+        ],
+        Work::Draw(Draw::plain(&BOX_BACK, "direction.frag", twin::direction::direction)),
+    )
 }

@@ -7,16 +7,11 @@ use crate::resource;
 use crate::twin;
 
 pub fn entry() -> Step {
-    Step {
-        name: "entry".to_owned(),
-        group: Group::Setup,
-        pass: 0,
-        accesses: vec![
-            Usage::Vertices.of(resource::BOX),
-            Usage::Sampled.of(resource::FRAME),
-            Usage::Color.of(resource::ENTRY),
-        ]
-        .into(),
-        work: Work::Draw(Draw::plain(&BOX_FRONT, "entry.frag", twin::entry::entry)),
-    }
+    Step::new(
+        "entry".to_owned(),
+        Group::Setup,
+        0,
+        vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME), Usage::Color.of(resource::ENTRY)],
+        Work::Draw(Draw::plain(&BOX_FRONT, "entry.frag", twin::entry::entry)),
+    )
 }

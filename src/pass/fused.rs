@@ -21,6 +21,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::DIRECTION),
         Usage::Sampled.of(resource::VOLUME),
     ];
+    accesses.extend(feature::reads(context, Hook::Ray));
     if context.has(&DISTANCES) {
         accesses.push(Usage::Sampled.of(resource::NEAREST_DISTANCE));
     }
@@ -29,6 +30,8 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     accesses.push(drawn.of(resource::ACCUMULATED));
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(&BOX_FRONT, "fused.frag", twin::fused::fused);
+    draw.define(feature::defines(context, Hook::Ray));
+    draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Sample));
     draw.define(feature::defines(context, Hook::Decide));
     draw.blend = context.projection().blend;

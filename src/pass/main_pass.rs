@@ -20,8 +20,11 @@ pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
         Usage::Sampled.of(resource::VOLUME),
         Usage::Color.of(resource::ACCUMULATED),
     ];
+    accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(&BOX_FRONT, "main_pass.frag", twin::main_pass::main_pass);
+    draw.define(feature::defines(context, Hook::Ray));
+    draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Sample));
     draw.blend = context.projection().blend;
     draw.specialize([constants::samples(context.scene), constants::projection(context)]);

@@ -7,11 +7,11 @@ use crate::resource;
 
 /// Copies the marks that decide who takes part in main pass `pass`.
 pub fn mark_copy(pass: u32) -> Step {
-    Step {
-        name: format!("mark_copy #{pass}"),
-        group: Group::Copy,
+    Step::new(
+        format!("mark_copy #{pass}"),
+        Group::Copy,
         pass,
-        accesses: vec![Usage::CopySource.of(resource::MARKS), Usage::CopyTarget.of(resource::STORED)].into(),
-        work: Work::Copy { from: resource::MARKS, by: resource::MARKS_BUFFER, to: resource::STORED },
-    }
+        vec![Usage::CopySource.of(resource::MARKS), Usage::CopyTarget.of(resource::STORED)],
+        Work::Copy { from: resource::MARKS, by: resource::MARKS_BUFFER, to: resource::STORED },
+    )
 }

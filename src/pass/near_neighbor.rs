@@ -1,5 +1,7 @@
 //! Intermediate pass of near-neighbor skipping [Thesis §5.3].
 
+use ash::vk;
+
 use super::{constants, cull};
 use crate::feature::{self, EARLY_ENDS};
 use crate::geometry::BOX_FRONT;
@@ -20,11 +22,15 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
     ];
+    accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     accesses.extend(feature::reads(context, Hook::Decide));
-    // Before the first pass nothing is marked yet, and every ray takes part.
-    let culled = pass > 0 || form.mark != Mark::Copy;
+    // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer all begin anew [Thesis ch. 6 §4].
+    let anew = context.section > 0 && pass == 0;
+    let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
     let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
+    draw.define(feature::defines(context, Hook::Ray));
+    draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Decide));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
@@ -33,6 +39,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     }
-    cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
+    let compare = if anew { vk::CompareOp::ALWAYS } else { cull::rising(form.mark) };
+    cull::mark_into(&mut draw, &mut accesses, form.mark, compare);
     Step::drawn(format!("near_neighbor #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

@@ -3,10 +3,11 @@
 use ash::vk;
 
 use super::{constants, cull};
+use crate::feature;
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
-use crate::part::rows::Context;
+use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::twin;
@@ -20,7 +21,10 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::DIRECTION),
         Usage::Sampled.of(resource::ACCUMULATED),
     ];
+    accesses.extend(feature::reads(context, Hook::Ray));
     let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
+    draw.define(feature::defines(context, Hook::Ray));
+    draw.specialize(feature::constants(context, Hook::Ray));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::projection(context)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);

@@ -153,12 +153,15 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     crate::truth::preintegrated::check(scene)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
+    feature::layers::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view);
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
-        0 => (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")]),
+        0 if scene.polygons.is_empty() || view.region.pixels() == 0 => {
+            (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")])
+        }
         _ => (frame(&context), left_out(&context)),
     };
     let looks_up = passes > 0 && context.has(&DISTANCES);

@@ -24,7 +24,7 @@ impl Plan {
 fn line(step: &Step) -> String {
     let names = |chosen: fn(Usage) -> bool| -> String {
         let of = |a: &&Access| chosen(a.usage) && a.usage != Usage::Vertices;
-        let names: Vec<_> = step.accesses.iter().filter(of).map(|a| a.resource.name()).collect();
+        let names: Vec<_> = step.accesses.iter().filter(of).map(|a| a.resource.label()).collect();
         names.join(", ")
     };
     let (queue, detail) = match &step.work {

@@ -12,6 +12,7 @@ use crate::structure::cells::any_interesting;
 /// that the picture's format cannot hold.
 pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
+    warnings.extend(scene.polygons.warnings.clone());
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
     warnings.extend(plan.method.on_device.then(|| cut_off(scene, plan)).flatten());
@@ -41,6 +42,9 @@ pub fn notes(scene: &Scene) -> Vec<String> {
 /// Why nothing can show, where that is certain.
 fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     let field = &scene.field;
+    if !scene.polygons.is_empty() {
+        return None;
+    }
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
         let sides = field.extent().to_array().map(|side| format!("{side:.3}")).join(" x ");

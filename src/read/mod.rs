@@ -1,4 +1,4 @@
-//! Bytes in, scene parts out: volumes, transfer functions, scene files.
+//! Bytes in, scene parts out: volumes, meshes, transfer functions, scene files.
 //!
 //! No reader trusts a header: memory is taken for what a file holds, never for what it promises, and a file is
 //! right only when it holds what its header says; what follows is told in a warning.
@@ -6,6 +6,7 @@
 //! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
 mod keys;
+pub mod mesh;
 pub mod nrrd;
 mod orient;
 mod packed;
@@ -20,6 +21,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};
 pub use scene::{scene, scene_of, settings, settings_from_json};
 pub use transfer::transfer;
@@ -169,14 +171,23 @@ fn open(path: &Path) -> Result<(File, u64)> {
     Ok((File::open(path).map_err(|e| unreadable(path, &e))?, meta.len()))
 }
 
+/// The bytes of a regular file.
+///
+/// # Errors
+/// When it cannot be read.
+fn bytes(path: &Path) -> Result<Vec<u8>> {
+    let (mut file, _) = open(path)?;
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|e| unreadable(path, &e))?;
+    Ok(bytes)
+}
+
 /// The text of a regular file.
 ///
 /// # Errors
 /// When it cannot be read or is not UTF-8.
 pub fn text(path: &Path) -> Result<String> {
-    let (mut file, _) = open(path)?;
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes).map_err(|e| unreadable(path, &e))?;
+    let bytes = bytes(path)?;
     String::from_utf8(bytes).map_err(|e| {
         let problem = format!("is not UTF-8 text (byte {})", e.utf8_error().valid_up_to());
         Error::input(path.display(), problem, "give a text file")

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::{DMat4, DQuat};
 use serde_json::Value;
 
 use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
+use crate::scene::mesh::shape;
 use crate::scene::settings::{Endian, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
-use crate::scene::{Camera, Field, Scene, TextureUnit, Volume, builtin};
+use crate::scene::{Camera, Field, Polygons, Scene, TextureUnit, Volume, builtin};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
@@ -31,7 +33,7 @@ pub fn settings(path: &Path) -> Result<Settings> {
 /// Makes paths that are relative to the file the settings stand in relative to the working folder.
 fn resolve(settings: &mut Settings, file: &Path) {
     let base = file.parent().unwrap_or(Path::new(""));
-    for path in [&mut settings.volume.path, &mut settings.transfer.file].into_iter().flatten() {
+    for path in settings.paths() {
         *path = base.join(&*path);
     }
 }
@@ -102,8 +104,25 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
     let volume = volume(settings)?;
     let camera = camera.in_axes_of(volume.turn);
+    let polygons = Arc::new(polygons(settings, volume.turn)?);
     let field = Field::of(volume, &settings.volume.normalisation())?;
-    Ok(Scene { settings: settings.clone(), field: Arc::new(field), transfer, camera, unit: TextureUnit::default() })
+    let (settings, field) = (settings.clone(), Arc::new(field));
+    Ok(Scene { settings, field, transfer, camera, polygons, unit: TextureUnit::default() })
+}
+
+/// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.
+fn polygons(settings: &Settings, turn: DQuat) -> Result<Polygons> {
+    let mut polygons = Polygons::default();
+    for settings in &settings.meshes {
+        let mesh = match (&settings.path, &settings.builtin) {
+            (Some(path), _) => super::mesh(path)?,
+            (None, Some(name)) => shape(name)?,
+            (None, None) => continue,
+        };
+        let place = DMat4::from_quat(turn.inverse()) * settings.place(mesh.bounds());
+        polygons.add(&mesh, place, settings.material())?;
+    }
+    Ok(polygons.ready())
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {

@@ -5,11 +5,13 @@
 //! in `crate::pass::build`.
 
 mod frame;
+mod layers;
 mod look;
 mod structure;
 pub mod texels;
 
 pub use frame::{ACCUMULATED, BOX, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
+pub use layers::{LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES};
 pub use look::{AXIS, GREY_TRANSFER, HOLES, PREINTEGRATED, TRANSFER, VOLUME};
 pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
@@ -19,7 +21,7 @@ pub use structure::{
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 28] = [
+pub const RESOURCES: [Resource; 36] = [
     BOX,
     FRAME,
     ENTRY,
@@ -28,6 +30,14 @@ pub const RESOURCES: [Resource; 28] = [
     STORED,
     MARKS,
     MARKS_BUFFER,
+    SCREEN_CORNERS,
+    POLYGON_CORNERS,
+    TRIANGLES,
+    MATERIALS,
+    PLACEMENT,
+    LAYER,
+    LAYER_COLOR,
+    PEEL_DEPTH,
     VOLUME,
     HOLES,
     TRANSFER,

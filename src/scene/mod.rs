@@ -7,6 +7,7 @@ pub(crate) mod file_name;
 mod fixed;
 pub mod limits;
 pub mod longest;
+pub mod mesh;
 pub mod method;
 pub mod projection;
 pub mod range;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 pub use camera::Camera;
 pub use field::Field;
+pub use mesh::Polygons;
 pub use region::Region;
 pub use settings::Settings;
 pub use texture::TextureUnit;
@@ -35,6 +37,8 @@ pub struct Scene {
     pub field: Arc<Field>,
     pub transfer: TransferFunction,
     pub camera: Camera,
+    /// Polygons in and around the volume.
+    pub polygons: Arc<Polygons>,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
 }

@@ -10,6 +10,20 @@ pub struct Region {
 }
 
 impl Region {
+    /// The least rectangle around this one and another.
+    pub fn with(self, other: Self) -> Self {
+        match (self.pixels(), other.pixels()) {
+            (0, _) => other,
+            (_, 0) => self,
+            _ => {
+                let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+                let right = self.columns().end.max(other.columns().end);
+                let bottom = self.rows().end.max(other.rows().end);
+                Self { x, y, width: right - x, height: bottom - y }
+            }
+        }
+    }
+
     pub fn pixels(self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
     }

@@ -1,6 +1,6 @@
 //! A scene as its camera sees it: the box as triangles, the pixels it covers, the longest ray.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::Scene;
 use super::longest::longest_ray;
@@ -56,7 +56,7 @@ impl View {
         };
         let (front, back) = (project(true), project(false));
         representable(scene, &rays, [&front, &back])?;
-        let region = match covered(&front, size) {
+        let region = match covered(&front, size).with(covered_by_polygons(scene, &rays, size)) {
             // Without the planner targets are as large as the picture.
             Region { width: 1.., .. } if !scene.settings.method.planner => {
                 Region { x: 0, y: 0, width: size[0], height: size[1] }
@@ -100,6 +100,30 @@ fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> R
         ),
         "move the eye nearer to the volume, or choose a field of view farther from 0 and 180 degrees",
     ))
+}
+
+/// The pixels that polygons may cover: those of the box around them.
+fn covered_by_polygons(scene: &Scene, rays: &ViewRays, size: [u32; 2]) -> Region {
+    if scene.polygons.is_empty() {
+        return Region::default();
+    }
+    let bounds = scene.polygons.bounds();
+    let corner = |i: usize| {
+        let pick = |axis: usize| if i >> axis & 1 == 0 { bounds.least[axis] } else { bounds.greatest[axis] };
+        DVec3::new(pick(0), pick(1), pick(2)) - rays.eye
+    };
+    let corners: [DVec3; 8] = std::array::from_fn(corner);
+    let pixels = DMat3::from_cols(rays.right, rays.down, rays.base).inverse();
+    let placed = corners.map(|arm| pixels * arm);
+    if placed.iter().any(|p| p.z < rays.near) {
+        // Some of it is beside the eye or behind it, and may show anywhere.
+        return Region { x: 0, y: 0, width: size[0], height: size[1] };
+    }
+    let clip = |p: DVec3| {
+        let at = |axis: usize| 2.0 * p[axis] / f64::from(size[axis]) - p.z;
+        [at(0), at(1), p.z].map(|c| c as f32)
+    };
+    covered(&placed.map(clip), size)
 }
 
 /// The pixels that triangles may cover, one pixel more on each side.

@@ -1,9 +1,11 @@
 //! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
 
 mod bundle;
+mod polygons;
 mod slice;
 
 pub use bundle::Bundle;
+pub use polygons::{Material, Placement, Triangle};
 pub use slice::Slice;
 
 use bytemuck::{Pod, Zeroable};

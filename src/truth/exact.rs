@@ -36,10 +36,11 @@ use self::cubic::Cubic;
 use self::met::Meeting;
 use self::panel::{Medium, Segment};
 use crate::math::interpolate::nearest;
+use crate::math::opacity::composite;
 use crate::math::ray::{ViewRays, box_interval};
 use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::settings::Filter;
-use crate::scene::{Field, Scene, TransferFunction};
+use crate::scene::{Field, Polygons, Scene, TransferFunction};
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
 const BLACK: f64 = 1e-17;
@@ -49,6 +50,8 @@ pub struct ExactIntegrator<'a> {
     field: &'a Field,
     medium: Absorber<'a>,
     projection: &'static Projection,
+    /// Polygons that rays meet, and how many transparent ones show.
+    polygons: Option<(&'a Polygons, u32)>,
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
 }
@@ -84,13 +87,16 @@ struct Light {
 
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
-        Self { field, medium: Absorber::new(transfer), projection: &COMPOSITE, nearest: false }
+        Self { field, medium: Absorber::new(transfer), projection: &COMPOSITE, polygons: None, nearest: false }
     }
 
     /// Of a scene, by its projection: its field between voxels is what its filter makes of it.
     pub fn of(scene: &'a Scene) -> Self {
         let nearest = scene.settings.sampling.filter == Filter::Nearest;
-        Self { nearest, projection: projection::of(&scene.settings), ..Self::new(&scene.field, &scene.transfer) }
+        let projection = projection::of(&scene.settings);
+        let polygons =
+            Some((&*scene.polygons, scene.settings.layers.most)).filter(|(polygons, _)| !polygons.is_empty());
+        Self { nearest, projection, polygons, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -132,12 +138,18 @@ impl<'a> ExactIntegrator<'a> {
             .flat_map_iter(|row| {
                 (0..size[0]).map(move |column| {
                     let direction = rays.direction(column, row);
-                    let Some((enter, leave)) = box_interval(rays.eye, direction, half, rays.near) else {
-                        return [0.0; 4];
-                    };
                     // Along a view's ray the parameter is depth; lengths are longer by the direction's own.
                     let stretch = direction.length();
-                    self.ray(rays.eye + enter * direction, direction / stretch, (leave - enter) * stretch)
+                    let between = |enter: f64, leave: f64| {
+                        self.ray(rays.eye + enter * direction, direction / stretch, (leave - enter) * stretch)
+                    };
+                    let whole = box_interval(rays.eye, direction, half, rays.near);
+                    match self.polygons {
+                        None => whole.map_or([0.0; 4], |(enter, leave)| between(enter, leave)),
+                        Some((polygons, most)) => {
+                            cut_by(&polygons.surfaces(rays, [column, row], most), whole.unwrap_or_default(), between)
+                        }
+                    }
                 })
             })
             .collect()
@@ -215,6 +227,24 @@ impl<'a> ExactIntegrator<'a> {
             self.medium.add(&cell.cubic(), lengths, (b - a) / length, light);
         }
     }
+}
+
+/// The pixel of a ray whose volume lies between two depths, with surfaces at some: the volume between them by `between`,
+/// and their colours, front to back.
+fn cut_by(
+    surfaces: &[(f64, [f64; 4])],
+    (enter, leave): (f64, f64),
+    between: impl Fn(f64, f64) -> [f64; 4],
+) -> [f64; 4] {
+    let mut pixel = [0.0; 4];
+    let mut from = enter;
+    for (depth, color) in surfaces {
+        let to = depth.clamp(from, leave.max(from));
+        pixel = composite(composite(pixel, between(from, to)), *color);
+        from = to;
+    }
+    let ends = surfaces.last().is_some_and(|(_, color)| color[3] >= 1.0);
+    if ends { pixel } else { composite(pixel, between(from, leave)) }
 }
 
 impl CellPart {

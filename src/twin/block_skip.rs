@@ -1,10 +1,7 @@
 //! Twin of `glsl/block_skip.frag`: stopping criterion and empty blocks [KW03 §2.3].
 
-use super::{DEAD, Effect, Pixel, Twin};
+use super::{DEAD, Effect, Pixel, SKIPPED, Twin};
 use crate::structure::blocks::Blocks;
-
-/// Depth of a ray whose next segment is empty, as in the shader.
-pub const SKIPPED: f64 = 0.5;
 
 /// Marks the pixel dead, skipped or due for main pass `pass`.
 ///
@@ -14,7 +11,9 @@ pub fn block_skip(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let blocks = twin.blocks.expect("block skipping is planned with blocks");
     let (first, end) = twin.segment(pixel, pass);
     let saturated = twin.saturated(pixel);
-    pixel.stored = if first >= end || saturated {
+    pixel.stored = if !saturated && twin.begins_later(pixel, pass) {
+        SKIPPED
+    } else if first >= end || saturated {
         DEAD
     } else if (first..end).any(|i| visible(twin, blocks, pixel, i)) {
         0.0
@@ -31,9 +30,9 @@ fn visible(twin: &Twin, blocks: &Blocks, pixel: &mut Pixel, i: u32) -> bool {
         return twin.at_cell(pixel, i, |cell| blocks.visible(cell));
     }
     let [front, back] = twin.span(pixel, i);
-    let ray = *pixel;
+    let ray = pixel.clone();
     let (found, undecided) = twin.at_cell_of(pixel, front, |from| {
-        let mut other = ray;
+        let mut other = ray.clone();
         let found = twin.at_cell_of(&mut other, back, |to| blocks.visible_between(from, to));
         (found, other.undecided)
     });

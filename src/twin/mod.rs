@@ -4,8 +4,10 @@ pub mod block_skip;
 pub mod direction;
 pub mod entry;
 pub mod fused;
+pub mod layer;
 pub mod main_pass;
 pub mod near_neighbor;
+pub mod peel;
 pub mod samples;
 pub mod section;
 pub mod segment;
@@ -24,6 +26,9 @@ use crate::truth::preintegrated::PreintegratedTable;
 /// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
 pub const DEAD: f64 = 1.0;
 
+/// Depth of a ray that has nothing to do in the next segment, and goes on behind it.
+pub const SKIPPED: f64 = 0.5;
+
 /// What every twin knows of the frame.
 #[derive(Clone, Copy)]
 pub struct Twin<'a> {
@@ -40,8 +45,17 @@ pub struct Twin<'a> {
     pub levels: Levels,
 }
 
+/// A surface that a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Steps from where the ray enters the volume, negative in front of it.
+    pub steps: f64,
+    /// Lit, premultiplied RGBA.
+    pub color: [f64; 4],
+}
+
 /// One pixel of every image of the frame.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Pixel {
     pub column: u32,
     pub row: u32,
@@ -54,6 +68,12 @@ pub struct Pixel {
     pub accumulated: [f64; 4],
     /// The depth buffer.
     pub stored: f64,
+    /// Surfaces of the layers that were peeled.
+    pub layers: Vec<Surface>,
+    /// The nearest opaque surface.
+    pub opaque: Option<Surface>,
+    /// The part of the ray that is drawn: that behind so many layers.
+    pub section: u32,
     /// f32 cannot decide whether a sample is on the ray, on which side of a jump or in which of two cells it lies, or
     /// whether the ray is saturated; picture and counts of the pixel may differ by more than rounding.
     pub undecided: bool,
@@ -69,6 +89,8 @@ fn stored(value: DVec3) -> DVec3 {
 pub enum Effect {
     /// Nothing that shows.
     Silent,
+    /// The fragment is none of those that pass.
+    Discarded,
     /// It took a sample of non-zero opacity, or, where values are shown, one that changes the pixel.
     Contributed,
 }

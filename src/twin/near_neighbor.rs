@@ -13,17 +13,19 @@ impl Twin<'_> {
     /// The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
     pub fn next_section(&self, pixel: &mut Pixel, section: u32) -> u32 {
         let (sampling, method) = (&self.scene.settings.sampling, &self.scene.settings.method);
-        let (mut i, end) = self.segment(pixel, section);
+        let (first, samples) = self.samples_of_part(pixel);
+        let m = sampling.samples_per_pass;
+        let mut i = (section * m).max(first);
+        let end = ((i / m + 1) * m).min(samples);
         if i >= end {
             return self.passes;
         }
-        let samples = self.sample_count(pixel);
         let gone = |i: u32| method.exit_lookahead && i >= samples;
         let next = |i: u32| if gone(i) { self.passes } else { (i / sampling.samples_per_pass).min(self.passes) };
         let mut looked = 0;
         while looked < method.lookups && i < end {
             looked += 1;
-            let ray = *pixel;
+            let ray = pixel.clone();
             // Where it is the section alone that matters, f32 may be on another sample.
             let matters = |i: u32| if looked == method.lookups { next(i) } else { i };
             let ([free, _], [least, most]) = self.at_cell(pixel, i, |cell| {

@@ -102,8 +102,14 @@ impl Twin<'_> {
     /// The samples of main pass `pass`: first and one past the last.
     pub fn segment(&self, pixel: &Pixel, pass: u32) -> (u32, u32) {
         let m = self.scene.settings.sampling.samples_per_pass;
-        let first = pass * m;
-        (first, (first + m).min(self.sample_count(pixel)))
+        let (first, end) = self.samples_of_part(pixel);
+        ((pass * m).max(first), (pass * m + m).min(end))
+    }
+
+    /// Whether the part of the ray that is drawn begins behind the segment of main pass `pass`.
+    pub fn begins_later(&self, pixel: &Pixel, pass: u32) -> bool {
+        let (first, end) = self.samples_of_part(pixel);
+        (pass + 1) * self.scene.settings.sampling.samples_per_pass <= first && first < end
     }
 
     /// Whether the ray needs no further samples; undecided where rounding may decide.

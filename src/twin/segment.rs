@@ -66,9 +66,11 @@ impl Twin<'_> {
 
     /// Steps that sample `i` stands for.
     fn extent_of_sample(&self, pixel: &Pixel, i: u32) -> f64 {
+        let last = i + 1 == self.sample_count(pixel);
+        let ([begin, end], step_end) = (self.part(pixel), if last { self.steps(pixel) } else { f64::from(i + 1) });
         match self.scene.settings.sampling.last {
-            Last::Partial if i + 1 == self.sample_count(pixel) => self.steps(pixel) - f64::from(i),
-            _ => 1.0,
+            Last::Partial => step_end.min(end) - f64::from(i).max(begin),
+            Last::Full => 1.0,
         }
     }
 

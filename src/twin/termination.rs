@@ -1,11 +1,16 @@
 //! Twin of `glsl/termination.frag`: the stopping criterion of `rc-ert` [KW03 §2.1].
 
-use super::{DEAD, Effect, Pixel, Twin};
+use super::{DEAD, Effect, Pixel, SKIPPED, Twin};
 
 /// Marks the pixel dead when its ray is saturated or has left before main pass `pass`.
 pub fn termination(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let (first, end) = twin.segment(pixel, pass);
     let saturated = twin.saturated(pixel);
-    pixel.stored = if first >= end || saturated { DEAD } else { 0.0 };
+    pixel.stored = match () {
+        () if saturated => DEAD,
+        () if twin.begins_later(pixel, pass) => SKIPPED,
+        () if first >= end => DEAD,
+        () => 0.0,
+    };
     Effect::Silent
 }

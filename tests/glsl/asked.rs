@@ -108,8 +108,9 @@ pub fn plans() -> Vec<(String, Plan)> {
 
 /// The shaders of these plans and of what has no plan.
 pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
-    let steps = plans.iter().flat_map(|(_, plan)| &plan.steps);
-    let planned = steps.filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
-    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader(), Shader::new("box.vert", [])]);
-    planned.chain(others).collect()
+    let steps = || plans.iter().flat_map(|(_, plan)| &plan.steps);
+    let planned = steps().filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
+    let corners = steps().filter_map(|step| step.work.geometry()).map(|geometry| Shader::new(geometry.vertex, []));
+    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]);
+    planned.chain(corners).chain(others).collect()
 }

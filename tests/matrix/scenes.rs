@@ -9,7 +9,7 @@ use depthleap::part::rows::Method;
 use depthleap::projection::PROJECTIONS;
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{Alpha, Classification, Filter, Last, Offset, Settings, VolumeTexture};
+use depthleap::scene::settings::{Alpha, Classification, Filter, Last, MeshSettings, Offset, Settings, VolumeTexture};
 use depthleap::scene::{Camera, Scene};
 
 type Change = fn(&mut Settings);
@@ -18,7 +18,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 21] = [
+const KINDS: [(&str, Change); 25] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -58,7 +58,36 @@ const KINDS: [(&str, Change); 21] = [
     }),
     ("nothing left out", |s| s.method.planner = false),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
+    ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),
+    ("an opaque box", |s| s.meshes = vec![cuboid(0.45, 1.0)]),
+    ("boxes that cut each other and the volume's faces", |s| {
+        s.meshes =
+            vec![cuboid(0.9, 0.3), across(0.5), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+        (s.sampling.last, s.sampling.offset, s.layers.most) = (Last::Partial, Offset::Midpoint, 3);
+    }),
+    ("layers of steps classified as a whole", |s| {
+        (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
+        s.sampling.last = Last::Partial;
+    }),
 ];
+
+/// A box along no axis; backs have another colour.
+fn cuboid(side: f64, opacity: f64) -> MeshSettings {
+    MeshSettings {
+        builtin: Some("box".to_owned()),
+        color: [0.9, 0.4, 0.2],
+        back: Some([0.1, 0.6, 0.3]),
+        opacity,
+        scale: side,
+        rotate: [20.0, 33.0, 10.0],
+        ..MeshSettings::default()
+    }
+}
+
+/// One that reaches out of the volume.
+fn across(opacity: f64) -> MeshSettings {
+    MeshSettings { translate: [-0.35, 0.12, 0.31], color: [0.2, 0.3, 0.9], ..cuboid(0.6, opacity) }
+}
 
 /// A value that few voxels of the volume have.
 const NO_DATA: f64 = 127.0;

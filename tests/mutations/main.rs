@@ -2,6 +2,9 @@
 //! repeats little of it. Seeded, so that a failure comes again.
 
 mod damage;
+#[path = "../read/mesh_samples.rs"]
+mod mesh_samples;
+mod meshes;
 mod nrrd;
 mod plans;
 mod raw;

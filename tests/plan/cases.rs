@@ -5,7 +5,7 @@ use depthleap::part::form::Form;
 use depthleap::plan::{Plan, plan};
 use depthleap::projection::{MIP, Projection};
 use depthleap::read;
-use depthleap::scene::settings::{Cull, Mark, MethodName};
+use depthleap::scene::settings::{Cull, Mark, MeshSettings, MethodName};
 use depthleap::scene::{Scene, Settings};
 
 /// 16 voxels a side, three main passes, few pixels.
@@ -31,6 +31,14 @@ pub struct Case {
 fn projected(row: &Projection, form: Option<Form>) -> Plan {
     let mut settings = settings(method::NN_OMNI.name());
     settings.projection.kind = row.name();
+    plan(&scene(&settings), form).unwrap()
+}
+
+/// With a transparent and an opaque mesh, and two layers at the most.
+fn layered(method: MethodName, form: Option<Form>) -> Plan {
+    let mut settings = settings(method);
+    let mesh = |opacity| MeshSettings { builtin: Some("box".to_owned()), opacity, ..MeshSettings::default() };
+    (settings.meshes, settings.layers.most) = (vec![mesh(0.5), mesh(1.0)], 2);
     plan(&scene(&settings), form).unwrap()
 }
 
@@ -73,6 +81,13 @@ pub fn cases() -> Vec<Case> {
     settings.sampling.samples_per_pass = 2;
     let plan = plan(&scene(&settings), form(Bounds, Mark::Copy)).unwrap();
     cases.push(Case { name: "nn-omni+fused_bounds_copy_counted", plan });
+    for (name, method, form) in [
+        ("rc-ert_layers", method::RC_ERT.name(), form(Ztest, Fragdepth)),
+        ("nn-omni_bounds_fragdepth_layers", method::NN_OMNI.name(), form(Bounds, Fragdepth)),
+        ("nn-omni+fused_ztest_copy_layers", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy)),
+    ] {
+        cases.push(Case { name, plan: layered(method, form) });
+    }
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases
 }

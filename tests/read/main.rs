@@ -1,4 +1,4 @@
-//! Volume readers: what is written comes back, what is wrong is refused by name, and what is doubtful is told.
+//! Readers of volumes and meshes: what is written comes back, what is wrong is refused by name, and what is doubtful is told.
 
 mod cases;
 mod components;
@@ -7,6 +7,9 @@ mod files;
 mod frames;
 mod header;
 mod kit;
+mod mesh_details;
+mod mesh_samples;
+mod meshes;
 mod messages;
 mod orientation;
 mod packed;

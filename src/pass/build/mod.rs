@@ -85,13 +85,7 @@ fn of_lookup(facts: &Facts, steps: impl FnOnce(&Grid, &Lookup) -> Vec<Step>) -> 
 
 /// The host makes a resource, and its bytes are uploaded.
 pub fn host(resource: Resource, group: Group) -> Step {
-    Step {
-        name: resource.name().to_owned(),
-        group,
-        pass: 0,
-        accesses: vec![Usage::Upload.of(resource)].into(),
-        work: Work::Host(resource),
-    }
+    Step::new(resource.name().to_owned(), group, 0, vec![Usage::Upload.of(resource)], Work::Host(resource))
 }
 
 /// What a step of `count` invocations knows of the grid.
@@ -119,16 +113,12 @@ fn dispatch(
         slice,
         cells: cells as u32,
     });
-    Step { name, group: Group::Structure, pass: 0, accesses: accesses.into(), work }
+    Step::new(name, Group::Structure, 0, accesses, work)
 }
 
 /// Distances as packed, to the texture `to`.
 fn unpack(to: Resource) -> Step {
-    Step {
-        name: to.name().to_owned(),
-        group: Group::Structure,
-        pass: 0,
-        accesses: vec![Usage::CopySource.of(resource::DISTANCE_BYTES), Usage::CopyTarget.of(to)].into(),
-        work: Work::Unpack { from: resource::DISTANCE_BYTES, to },
-    }
+    let accesses = vec![Usage::CopySource.of(resource::DISTANCE_BYTES), Usage::CopyTarget.of(to)];
+    let work = Work::Unpack { from: resource::DISTANCE_BYTES, to };
+    Step::new(to.name().to_owned(), Group::Structure, 0, accesses, work)
 }

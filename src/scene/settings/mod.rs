@@ -13,6 +13,8 @@
 mod camera;
 mod image;
 mod key;
+mod layers;
+mod mesh;
 mod method;
 mod parse;
 mod projection;
@@ -20,6 +22,8 @@ mod sampling;
 mod section;
 mod transfer;
 mod volume;
+
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -31,6 +35,7 @@ pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
 pub use image::Accumulate;
 pub use key::Key;
+pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
@@ -45,6 +50,9 @@ macro_rules! sections {
         #[serde(default, deny_unknown_fields, expecting = "the sections of a scene file")]
         pub struct Settings {
             $(pub $name: $settings,)*
+            /// Polygons, as an array of tables `[[mesh]]`.
+            #[serde(rename = "mesh", skip_serializing_if = "Vec::is_empty")]
+            pub meshes: Vec<MeshSettings>,
         }
 
         /// The options of all sections.
@@ -76,7 +84,7 @@ macro_rules! sections {
             /// When one is not, by its key and its option.
             pub fn check(&self) -> Result<()> {
                 $(self.$name.check()?;)*
-                Ok(())
+                self.meshes.iter().try_for_each(MeshSettings::check)
             }
         }
     };
@@ -102,6 +110,12 @@ pub struct Formats {
 }
 
 impl Settings {
+    /// Every path of a file that the settings name.
+    pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
+        [&mut self.volume.path, &mut self.transfer.file].into_iter().chain(meshes).flatten()
+    }
+
     pub fn formats(&self) -> Formats {
         Formats { accumulate: self.image.accumulate, depth: self.method.depth }
     }
@@ -111,6 +125,7 @@ sections! {
     volume: VolumeSettings, VolumeOptions;
     transfer: TransferSettings, TransferOptions;
     camera: CameraSettings, CameraOptions;
+    layers: LayersSettings, LayersOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;

@@ -36,6 +36,9 @@ const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 /// a raster of 1/16 pixel.
 const OUTLINE: u64 = 24;
 
+/// The same with polygons, each of whose edges is an outline.
+const OUTLINE_OF_POLYGONS: u64 = 96;
+
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
     for (name, scene) in matrix_scenes::scenes() {
@@ -101,7 +104,8 @@ impl Runs<'_> {
             Ends::Opaque | Ends::Never(_) => UNDECIDED,
             Ends::Reached => UNDECIDED_AT_AN_EXTREME,
         };
-        if undecided > most || twin.outline > OUTLINE {
+        let outline = if scene.polygons.is_empty() { OUTLINE } else { OUTLINE_OF_POLYGONS };
+        if undecided > most || twin.outline > outline {
             return Err(format!("{undecided} pixels are undecided, and {} on the outline", twin.outline));
         }
         if !method.on_device {

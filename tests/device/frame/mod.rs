@@ -6,6 +6,7 @@ mod features;
 #[path = "../../plan/lacking.rs"]
 mod lacking;
 mod law;
+mod layers;
 mod matrix;
 #[path = "../../matrix/scenes.rs"]
 mod matrix_scenes;
@@ -23,6 +24,7 @@ pub fn tests() -> Vec<Test> {
     [
         matrix::tests(),
         law::tests(),
+        layers::tests(),
         orbit::tests(),
         truth::tests(),
         features::tests(),

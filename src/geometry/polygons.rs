@@ -1,0 +1,47 @@
+//! The polygons of a scene, wherever they are: they are not cut off at the volume's box.
+
+use std::ops::Range;
+
+use ash::vk;
+
+use crate::math::ray::ViewRays;
+use crate::part::geometry::{Geometry, Hits, Sample};
+use crate::resource;
+use crate::scene::Scene;
+
+/// Those that show what is behind, in the order of their numbers.
+pub static TRANSPARENT_POLYGONS: Geometry = Geometry {
+    name: "transparent polygons",
+    range: |scene, _| corners(scene.polygons.transparent()),
+    hits: |scene, rays, sample| hits(scene, rays, sample, scene.polygons.transparent()),
+    ..POLYGONS
+};
+
+/// Those that hide what is behind, in the order of their numbers.
+pub static OPAQUE_POLYGONS: Geometry = Geometry {
+    name: "opaque polygons",
+    range: |scene, _| corners(scene.polygons.opaque()),
+    hits: |scene, rays, sample| hits(scene, rays, sample, scene.polygons.opaque()),
+    ..POLYGONS
+};
+
+/// What both have in common.
+const POLYGONS: Geometry = Geometry {
+    name: "polygons",
+    vertex: "polygons.vert",
+    vertices: resource::POLYGON_CORNERS,
+    corner: vk::Format::R32G32B32_SFLOAT,
+    range: |_, _| 0..0,
+    hits: |_, _, _| Hits { fragments: 0, undecided: false },
+};
+
+fn corners(triangles: Range<usize>) -> Range<u32> {
+    3 * triangles.start as u32..3 * triangles.end as u32
+}
+
+/// One fragment for each triangle that the ray through the pixel's centre meets.
+fn hits(scene: &Scene, rays: &ViewRays, sample: Sample, triangles: Range<usize>) -> Hits {
+    let crossings = scene.polygons.crossings(rays, sample.pixel, sample.raster);
+    let fragments = crossings.list.iter().filter(|one| triangles.contains(&(one.triangle as usize))).count();
+    Hits { fragments: fragments as u32, undecided: crossings.undecided }
+}

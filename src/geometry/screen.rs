@@ -1,0 +1,16 @@
+//! Every pixel of the targets.
+
+use ash::vk;
+
+use crate::part::geometry::{Geometry, Hits};
+use crate::resource;
+
+/// A triangle that covers the whole picture.
+pub static SCREEN: Geometry = Geometry {
+    name: "screen",
+    vertex: "box.vert",
+    vertices: resource::SCREEN_CORNERS,
+    corner: vk::Format::R32G32B32_SFLOAT,
+    range: |_, _| 0..3,
+    hits: |_, _, _| Hits { fragments: 1, undecided: false },
+};

@@ -1,0 +1,30 @@
+//! Colours of a layer under what is in front of it [Thesis ch. 6 §2.2].
+
+use crate::geometry::SCREEN;
+use crate::math::blend::Blend;
+use crate::part::access::Usage;
+use crate::part::{Draw, Group, Step};
+use crate::resource;
+use crate::twin::{self, TwinPass};
+
+/// Blends the colours of `layer` in, wherever it has some.
+pub fn layer(layer: u32) -> Step {
+    blended(format!("layer #{layer}"), layer, twin::layer::layer)
+}
+
+/// Blends the colours of opaque polygons in, whose layer is that behind the transparent ones.
+pub fn opaque(layer: u32) -> Step {
+    blended("layer_opaque".to_owned(), layer, twin::layer::opaque)
+}
+
+fn blended(name: String, layer: u32, twin: TwinPass) -> Step {
+    let accesses = vec![
+        Usage::Vertices.of(resource::SCREEN_CORNERS),
+        Usage::Sampled.of(resource::LAYER.at(layer as u16)),
+        Usage::Sampled.of(resource::LAYER_COLOR.at(layer as u16)),
+        Usage::Color.of(resource::ACCUMULATED),
+    ];
+    let mut draw = Draw::plain(&SCREEN, "layer.frag", twin);
+    draw.blend = Blend::Over;
+    Step::drawn(name, Group::Blend, layer, accesses, draw)
+}

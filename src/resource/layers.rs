@@ -1,0 +1,104 @@
+//! Polygons, and the depth layers they are peeled into [Thesis ch. 6 §1.5].
+
+use std::borrow::Cow;
+
+use ash::vk;
+
+use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
+use crate::shared;
+
+/// What the host has anew for every frame.
+const fn of_frame(
+    name: &'static str,
+    holds: &'static str,
+    kind: ResourceKind,
+    bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>,
+) -> ResourceInfo {
+    ResourceInfo { name, holds, kind, life: Life::Frame, origin: Origin::Host(bytes) }
+}
+
+/// A triangle over the whole picture: clip coordinates.
+const WHOLE: [[f32; 3]; 3] = [[-1.0, -1.0, 1.0], [3.0, -1.0, 1.0], [-1.0, 3.0, 1.0]];
+
+/// What covers every pixel.
+pub const SCREEN_CORNERS: Resource = Resource::new(&SCREEN_CORNERS_INFO);
+static SCREEN_CORNERS_INFO: ResourceInfo = of_frame(
+    "screen_corners",
+    "corners of a triangle in clip space that covers the picture",
+    ResourceKind::Vertices(|_, _| size_of_val(&WHOLE) as u64),
+    |_| Cow::Borrowed(bytemuck::bytes_of(&WHOLE)),
+);
+
+/// Corners of all polygons.
+pub const POLYGON_CORNERS: Resource = Resource::new(&POLYGON_CORNERS_INFO);
+static POLYGON_CORNERS_INFO: ResourceInfo = of_frame(
+    "polygon_corners",
+    "corners of triangles in volume space; the transparent ones, then the opaque ones",
+    ResourceKind::Vertices(|facts, _| (size_of::<[[f32; 3]; 3]>() * facts.scene.polygons.triangles.len()) as u64),
+    |facts| {
+        let corners: Vec<[[f32; 3]; 3]> = facts.scene.polygons.triangles.iter().map(|one| one.corners).collect();
+        bytemuck::cast_slice(&corners).to_vec().into()
+    },
+);
+
+/// Planes of all polygons as the eye has them.
+pub const TRIANGLES: Resource = Resource::new(&TRIANGLES_INFO);
+static TRIANGLES_INFO: ResourceInfo = of_frame(
+    "triangles",
+    "unit normal of a triangle and distance of its plane from the eye, volume space, as double-floats; its material",
+    ResourceKind::Storage(|facts, _| (size_of::<shared::Triangle>() * facts.scene.polygons.triangles.len()) as u64),
+    |facts| {
+        let (polygons, eye) = (&facts.scene.polygons, facts.view.rays.eye);
+        let triangles: Vec<_> = polygons.triangles.iter().map(|one| shared::Triangle::new(one, eye)).collect();
+        bytemuck::cast_slice(&triangles).to_vec().into()
+    },
+);
+
+/// The looks of meshes.
+pub const MATERIALS: Resource = Resource::new(&MATERIALS_INFO);
+static MATERIALS_INFO: ResourceInfo = of_frame(
+    "materials",
+    "linear colour and opacity of the fronts and of the backs of a mesh",
+    ResourceKind::Storage(|facts, _| (size_of::<shared::Material>() * facts.scene.polygons.materials.len()) as u64),
+    |facts| {
+        let materials: Vec<_> = facts.scene.polygons.materials.iter().map(shared::Material::new).collect();
+        bytemuck::cast_slice(&materials).to_vec().into()
+    },
+);
+
+/// From volume space to the picture.
+pub const PLACEMENT: Resource = Resource::new(&PLACEMENT_INFO);
+static PLACEMENT_INFO: ResourceInfo = of_frame(
+    "placement",
+    "where a point of volume space lies in the picture, `Placement` of polygons.vert",
+    ResourceKind::Uniform(|_, _| size_of::<shared::Placement>() as u64),
+    |facts| Cow::Owned(bytemuck::bytes_of(&shared::Placement::new(&facts.view.rays, facts.view.size)).to_vec()),
+);
+
+/// An image that frames draw into.
+const fn target(name: &'static str, holds: &'static str, format: vk::Format) -> ResourceInfo {
+    let kind = match format {
+        vk::Format::D32_SFLOAT => ResourceKind::Target(|_| vk::Format::D32_SFLOAT),
+        _ => ResourceKind::Target(|_| vk::Format::R32G32B32A32_SFLOAT),
+    };
+    ResourceInfo { name, holds, kind, life: Life::Frame, origin: Origin::Drawn }
+}
+
+/// The surfaces that rays meet, by the number of the layer; behind the transparent ones those of opaque polygons.
+pub const LAYER: Resource = Resource::new(&LAYER_INFO);
+static LAYER_INFO: ResourceInfo = target(
+    "layer",
+    "of the surface: near over depth (0: none), one more than the triangle's number, distance from where the ray enters, \
+     volume space",
+    vk::Format::R32G32B32A32_SFLOAT,
+);
+
+/// Their colours.
+pub const LAYER_COLOR: Resource = Resource::new(&LAYER_COLOR_INFO);
+static LAYER_COLOR_INFO: ResourceInfo =
+    target("layer_color", "lit colour of the surface, premultiplied linear RGBA", vk::Format::R32G32B32A32_SFLOAT);
+
+/// The depth buffer in which the nearest surface of a layer is found.
+pub const PEEL_DEPTH: Resource = Resource::new(&PEEL_DEPTH_INFO);
+static PEEL_DEPTH_INFO: ResourceInfo =
+    target("peel_depth", "near over depth of the surface, 0 where there is none", vk::Format::D32_SFLOAT);

@@ -1,0 +1,69 @@
+//! Twin of `glsl/layer.frag`, and of `glsl/shared/layer.glsl`: the part of a ray between two layers.
+
+use super::{Effect, Pixel, Surface, Twin};
+use crate::math::blend::Blend;
+use crate::scene::settings::Last;
+
+/// Distances of surfaces are good to some 2^-23 of the way to them: the length of the way from the eye is rounded, and that from
+/// the face of the box is counted in steps.
+const SURFACE_ROUNDING: f64 = 4e-7;
+
+/// Blends the colours of a layer under what is in front of it; the layer behind all that are peeled is opaque.
+pub fn layer(_: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
+    let Some(surface) = pixel.layers.get(layer as usize).copied() else { return Effect::Discarded };
+    pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
+    Effect::Silent
+}
+
+/// The same of the opaque surface.
+pub fn opaque(_: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    let Some(surface) = pixel.opaque else { return Effect::Discarded };
+    pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
+    Effect::Silent
+}
+
+impl Twin<'_> {
+    /// Where the part of the ray that is drawn begins and ends, in steps; nothing is between them where the ray has no such part.
+    pub fn part(&self, pixel: &Pixel) -> [f64; 2] {
+        let steps = self.steps(pixel);
+        let begin = match pixel.section.checked_sub(1) {
+            None => 0.0,
+            Some(layer) => pixel.layers.get(layer as usize).map_or(steps, |surface| surface.steps.max(0.0)),
+        };
+        let behind: Option<&Surface> = pixel.layers.get(pixel.section as usize).or(pixel.opaque.as_ref());
+        [begin, behind.map_or(steps, |surface| surface.steps.min(steps))]
+    }
+
+    /// The first sample of the part of the ray that is drawn, and one past its last.
+    pub fn samples_of_part(&self, pixel: &Pixel) -> (u32, u32) {
+        let ([begin, end], all) = (self.part(pixel), self.sample_count(pixel));
+        if begin >= end || all == 0 {
+            return (0, 0);
+        }
+        match self.scene.settings.sampling.last {
+            Last::Partial => ((begin.floor() as u32).min(all - 1), (end.ceil() as u32).min(all)),
+            Last::Full => {
+                let sample = |steps: f64| (steps - self.scene.settings.sampling.offset.steps()).ceil().max(0.0) as u32;
+                (sample(begin), sample(end).min(all))
+            }
+        }
+    }
+
+    /// Goes to the part of the ray behind so many layers, and sees whether f32 can tell its samples.
+    pub fn enter(&self, pixel: &mut Pixel, section: u32) {
+        let known = pixel.section == section && section > 0;
+        pixel.section = section;
+        if known || pixel.layers.is_empty() && pixel.opaque.is_none() {
+            return;
+        }
+        let (steps, offset) = (self.steps(pixel), self.scene.settings.sampling.offset.steps());
+        let reach = SURFACE_ROUNDING / self.step_length();
+        for cut in self.part(pixel).into_iter().filter(|cut| *cut > 0.0 && *cut < steps) {
+            let place = match self.scene.settings.sampling.last {
+                Last::Partial => cut,
+                Last::Full => cut - offset,
+            };
+            pixel.undecided |= (place - place.round()).abs() < reach * (1.0 + pixel.length);
+        }
+    }
+}

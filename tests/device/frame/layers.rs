@@ -1,0 +1,146 @@
+//! Polygons in the volume: layers that are peeled are those that a ray meets in f64, sorted; pictures and counts are those of the
+//! twins, in every form; skipping changes nothing.
+
+use std::sync::Arc;
+
+use depthleap::method::METHODS;
+use depthleap::part::Group;
+use depthleap::part::form::Form;
+use depthleap::scene::Scene;
+use depthleap::scene::settings::{Last, MeshSettings, Offset, Settings};
+use depthleap::vulkan::Device;
+
+use super::compare::{SAME_SUM, difference};
+use super::law::trusted;
+use super::scenes::{Shot, Stage, VIEWS, by, differing, exactly, forms, scene, seen, shapes};
+use crate::harness::{Test, test};
+
+type Meshes = fn() -> Vec<MeshSettings>;
+
+/// What stands where; of large faces, since a rasteriser may see another one at each edge.
+const SCENES: [(&str, Meshes); 12] = [
+    ("a sphere", || vec![mesh("sphere:8")]),
+    ("meshes that cut each other", || {
+        vec![mesh("torus:7"), MeshSettings { color: [0.1, 0.2, 0.9], scale: 0.7, ..mesh("box") }]
+    }),
+    ("across the faces of the box", || vec![MeshSettings { scale: 1.3, translate: [0.2, 0.1, 0.0], ..mesh("box") }]),
+    ("in front", || vec![MeshSettings { scale: 0.2, translate: [0.1, 0.05, 0.9], ..mesh("box") }]),
+    ("behind", || vec![MeshSettings { scale: 0.6, translate: [0.0, 0.0, -1.5], ..mesh("sphere:8") }]),
+    ("beside", || vec![MeshSettings { scale: 0.3, translate: [0.8, 0.4, 0.0], ..mesh("sphere:8") }]),
+    ("eight shells in each other", || {
+        (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()
+    }),
+    ("two faces in one plane", || {
+        let faces = |color| MeshSettings { color, scale: 0.6, rotate: [0.0; 3], ..mesh("box") };
+        vec![faces([0.9, 0.1, 0.1]), faces([0.1, 0.1, 0.9])]
+    }),
+    ("seen from inside", || vec![MeshSettings { scale: 6.0, ..mesh("box") }]),
+    ("through the eye", || vec![MeshSettings { scale: 1.0, translate: [0.0, 0.0, 1.91], ..mesh("sphere:6") }]),
+    ("opaque", || vec![MeshSettings { opacity: 1.0, scale: 0.5, ..mesh("sphere:8") }]),
+    ("an opaque one among transparent ones", || {
+        vec![mesh("box"), MeshSettings { opacity: 1.0, scale: 0.3, translate: [0.2, 0.0, 0.1], ..mesh("sphere:8") }]
+    }),
+];
+
+fn mesh(builtin: &str) -> MeshSettings {
+    MeshSettings {
+        builtin: Some(builtin.to_owned()),
+        color: [0.8, 0.5, 0.1],
+        back: Some([0.2, 0.7, 0.4]),
+        opacity: 0.4,
+        rotate: [17.0, 29.0, 41.0],
+        scale: 0.8,
+        ..MeshSettings::default()
+    }
+}
+
+pub fn tests() -> Vec<Test> {
+    let mut tests = Vec::new();
+    for (name, meshes) in SCENES {
+        for last in [Last::Full, Last::Partial] {
+            let scene = move || {
+                scene("shells:24", "ramp", |settings| {
+                    exactly(settings);
+                    settings.meshes = meshes();
+                    settings.image.size = [62, 50];
+                    (settings.sampling.last, settings.layers.most) = (last, 16);
+                    if last == Last::Partial {
+                        (settings.sampling.offset, settings.sampling.step) = (Offset::Midpoint, 0.8);
+                    }
+                })
+            };
+            let kind = if last == Last::Full { "whole samples" } else { "parts of samples" };
+            tests.push(test(&format!("layers::{name}::{kind}"), move |device| held(device, &scene())));
+        }
+    }
+    tests.push(test("layers::fewer_than_there_are", fewer));
+    tests.push(test("layers::fragments_are_hardly_more", fragments));
+    tests
+}
+
+/// Methods that cover all ways to end and to skip give their twins' pictures in every form, and one picture.
+fn held(device: &Arc<Device>, scene: &Scene) {
+    let mut stage = Stage::new(device);
+    let (mut largest, mut undecided) = (0.0f64, 0);
+    for view in VIEWS.into_iter().take(2) {
+        let scene = seen(scene, view);
+        let mut rule: Option<Shot> = None;
+        for row in shapes() {
+            let scene = by(&scene, row.name());
+            let twin = stage.twin(&scene, row.papers);
+            undecided = undecided.max(twin.undecided.iter().filter(|open| **open).count());
+            let mut counts = None;
+            for form in forms(device, row.name()).into_iter().filter(|form| trusted(device, row.name(), *form)) {
+                let shot = stage.shoot(&scene, form);
+                let name = format!("{}, {}, {}", row.name, form.map_or_else(String::new, Form::name), view.0);
+                assert!(shot.picture.iter().any(|pixel| pixel[3] > 0.0), "{name}: nothing is seen");
+                let off = difference(&shot.picture, &twin, SAME_SUM).unwrap_or_else(|what| panic!("{name}: {what}"));
+                largest = largest.max(off);
+                let found = shot.run.fragments.clone().expect("counts");
+                let counts = counts.get_or_insert_with(|| found.clone());
+                assert_eq!(*counts, found, "{name}: fragments differ from those of the first form");
+                if row.ends_rays {
+                    let rule = rule.get_or_insert_with(|| shot.clone());
+                    let differs = differing(&shot.picture, &rule.picture);
+                    assert_eq!(differs, 0, "{name}: {differs} pixels are not those of the first method");
+                }
+            }
+        }
+    }
+    println!("largest difference {largest:.1e}, at most {undecided} pixels undecided");
+}
+
+/// More layers than are peeled: the twin's picture all the same.
+fn fewer(device: &Arc<Device>) {
+    let scene = scene("shells:24", "ramp", |settings| {
+        exactly(settings);
+        settings.meshes = SCENES[6].1();
+        (settings.image.size, settings.layers.most) = ([62, 50], 2);
+    });
+    held(device, &scene);
+}
+
+/// Main fragments are at most those without polygons, and one more for each segment that a surface cuts.
+fn fragments(device: &Arc<Device>) {
+    let mut stage = Stage::new(device);
+    let settings = |meshes: Vec<MeshSettings>| {
+        move |settings: &mut Settings| (settings.meshes, settings.image.size) = (meshes, [122, 98])
+    };
+    let plain = scene("shells:24", "ramp", settings(Vec::new()));
+    let opaque = scene("shells:24", "ramp", settings(vec![MeshSettings { opacity: 1.0, ..mesh("sphere:8") }]));
+    let cut_scene = scene("shells:24", "ramp", settings(vec![mesh("sphere:8")]));
+    for row in METHODS.into_iter().filter(|row| row.under_the_law()) {
+        let mut main = |scene: &Scene| {
+            let shot = stage.shoot(&by(scene, row.name()), forms(device, row.name()).pop().flatten());
+            let main: u64 = shot.run.fragments.expect("counts").main.iter().sum();
+            (main, shot.plan)
+        };
+        let ((plain, _), (opaque, _), (cut, plan)) = (main(&plain), main(&opaque), main(&cut_scene));
+        assert!(opaque <= plain, "{}: {opaque} main fragments behind opaque polygons, {plain} without", row.name);
+        let crossed = |i: u32| cut_scene.polygons.surfaces(&plan.view.rays, [i % 122, i / 122], 4).len() as u64;
+        let cuts: u64 = (0..122 * 98).map(crossed).sum();
+        assert!(cut <= plain + cuts, "{}: {cut} main fragments, {plain} without layers, {cuts} cuts", row.name);
+        println!("{}: {plain} main fragments, {opaque} with an opaque sphere, {cut} with a transparent one", row.name);
+        assert!(plan.steps.iter().any(|step| step.group == Group::Peel));
+    }
+}
