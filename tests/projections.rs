@@ -5,7 +5,7 @@ use depthleap::frame::{Structures, cpu};
 use depthleap::math::ray::box_interval;
 use depthleap::method;
 use depthleap::plan::{self, Plan};
-use depthleap::projection::{AVERAGE, MINIP, MIP, PROJECTIONS, Projection, XRAY};
+use depthleap::projection::{MIP, PROJECTIONS, Projection, XRAY};
 use depthleap::read;
 use depthleap::scene::settings::{Accumulate, Classification, Filter, Last, Offset, Settings, VolumeTexture};
 use depthleap::scene::volume::Voxels;
