@@ -2,12 +2,14 @@
 // section begins at or before it; reads the distance to the nearest interesting cell at the segment's first
 // sample and marks the section in which that distance ends.
 //
-// Departures: those of shared/near_neighbor.glsl, and: FRAGDEPTH_ANY marks a section in which the ray arrives a little
+// Departures: those of shared/near_neighbor.glsl, and: 1. BEGINS: before the first pass behind a layer rays without that layer
+// keep their marks, which are dead or those of the last pass, where they die; the thesis marks every ray anew there
+// [Thesis ch. 6 §4], which is most of what a layer costs it. 2. FRAGDEPTH_ANY marks a section in which the ray arrives a little
 // later in the section than one that lies ahead: depths only rise, so that compare GREATER lets every mark pass and
 // counts it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD], [DENSE], [ENDLESS]
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD | BEGINS], [DENSE], [ENDLESS]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
 
 #include "shared/frame.glsl"
@@ -36,6 +38,11 @@ float decide(Ray ray) {
 }
 
 void main() {
+#ifdef BEGINS
+    if (layer_before().x == 0.0) {
+        discard;
+    }
+#endif
     float depth = DEAD;
     bool runs = may_run();
     if (runs) {

@@ -114,7 +114,9 @@ fn contradiction(shader: &Source, found: &Depth) -> Option<&'static str> {
     if found.early && found.replacing {
         return Some("declares early tests and writes depth");
     }
-    if found.early && ["CULL_DISCARD", "DISCARDS", "FIRST", "ALIVE"].iter().any(|d| shader.defines.contains(d)) {
+    if found.early
+        && ["CULL_DISCARD", "BEGINS", "DISCARDS", "FIRST", "ALIVE"].iter().any(|d| shader.defines.contains(d))
+    {
         return Some("declares early tests and discards");
     }
     (found.less && !found.replacing).then_some("promises about a depth it does not write")

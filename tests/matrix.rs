@@ -28,9 +28,11 @@ fn seen(features: &[&Feature]) -> Vec<Seen> {
             for form in scenes::forms(method) {
                 let plan = plan(&scene, form).unwrap_or_else(|e| panic!("{name}, {}: {e}", method.name));
                 let context = Context::new(&scene, &plan.view, method, form, plan.passes);
-                for (seen, feature) in seen.iter_mut().zip(features) {
-                    let there = context.has(feature);
-                    *seen = Seen { there: seen.there || there, lacking: seen.lacking || !there };
+                for part in context.sections() {
+                    for (seen, feature) in seen.iter_mut().zip(features) {
+                        let there = part.has(feature);
+                        *seen = Seen { there: seen.there || there, lacking: seen.lacking || !there };
+                    }
                 }
             }
         }

@@ -45,13 +45,18 @@ impl Scheduling {
         self.steps[i + 1..].iter().any(|step| step.accesses.iter().any(|access| access.resource == target))
     }
 
+    /// Whether step number `i` begins with a target anew, and leaves nothing of it to others.
+    fn anew(&self, i: usize, target: Resource) -> bool {
+        self.steps[i].accesses.contains(&Usage::DepthAnew.of(target))
+    }
+
     /// A line for each attachment that is not loaded as it should: cleared where nothing was, else kept.
     fn wrongly_loaded(&self) -> Vec<String> {
         let mut there: HashSet<Resource> = HashSet::new();
         let mut found = Vec::new();
         for (i, step) in self.steps.iter().enumerate() {
             for (_, target, attachment) in self.attachments().filter(|(at, ..)| *at == i) {
-                let expected = match there.contains(&target) {
+                let expected = match there.contains(&target) && !self.anew(i, target) {
                     true => vk::AttachmentLoadOp::LOAD,
                     false => vk::AttachmentLoadOp::CLEAR,
                 };
@@ -71,7 +76,7 @@ impl Scheduling {
             let left_alone = [Usage::DepthTest, Usage::ColorKept].map(|usage| usage.of(target));
             let tested_only = left_alone.iter().any(|access| self.steps[i].accesses.contains(access));
             // The picture is read after the last step.
-            let read_later = self.used_after(i, target) || target == resource::ACCUMULATED;
+            let read_later = self.used_after(i, target) && !self.anew(i, target) || target == resource::ACCUMULATED;
             let expected = match (tested_only, read_later) {
                 (true, _) => vk::AttachmentStoreOp::NONE,
                 (false, true) => vk::AttachmentStoreOp::STORE,
@@ -104,7 +109,8 @@ impl Scheduling {
                 let needed = access.usage.layout();
                 match attachment {
                     Some((_, _, attachment)) => {
-                        if attachment.before != now.get(&target).copied().unwrap_or_default() {
+                        let left = now.get(&target).copied().filter(|_| !self.anew(i, target));
+                        if attachment.before != left.unwrap_or_default() {
                             fault(target, "before its pass");
                         }
                         if attachment.during != needed {
@@ -252,8 +258,8 @@ fn attachments_are_those_a_step_draws_into_or_tests() {
     for one in schedulings() {
         for (step, scheduled) in one.steps.iter().zip(&one.scheduled) {
             let attached = |usage| {
-                use Usage::{Color, ColorInput, ColorKept, DepthTest, DepthWrite};
-                matches!(usage, Color | ColorInput | ColorKept | DepthTest | DepthWrite)
+                use Usage::{Color, ColorInput, ColorKept, DepthAnew, DepthTest, DepthWrite};
+                matches!(usage, Color | ColorInput | ColorKept | DepthAnew | DepthTest | DepthWrite)
             };
             let drawn: Vec<_> = step.accesses.iter().filter(|a| attached(a.usage)).map(|a| a.resource).collect();
             assert_eq!(scheduled.targets, drawn, "{} of {}", step.name, one.name);

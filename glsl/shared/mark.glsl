@@ -37,7 +37,7 @@ layout(depth_less) out float gl_FragDepth;
 #define MARK(depth)
 #endif
 
-#if (defined(MARK_COPY) || defined(MARK_NONE)) && !defined(CULL_DISCARD)
+#if (defined(MARK_COPY) || defined(MARK_NONE)) && !defined(CULL_DISCARD) && !defined(BEGINS)
 layout(early_fragment_tests) in;
 #endif
 

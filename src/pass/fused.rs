@@ -12,7 +12,7 @@ use crate::twin;
 use crate::twin::section::section_end;
 
 /// Main pass `pass`, for rays whose stored section begins at or before it. The last one has nothing left to decide and marks
-/// nothing.
+/// nothing, unless rays go on behind a layer: those that do not are dead there.
 pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![
         Usage::Vertices.of(resource::BOX),
@@ -42,7 +42,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let rounding = twin::fused::blend_rounding(scene.settings.image.accumulate);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits()), constants::projection(context)]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
-    if pass + 1 < context.passes {
+    if pass + 1 < context.passes || context.section < context.layers {
         cull::mark_into(&mut draw, &mut accesses, form.mark, cull::rising(form.mark));
     } else {
         draw.define(["MARK_NONE"]);

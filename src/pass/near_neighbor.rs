@@ -25,13 +25,14 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     accesses.extend(feature::reads(context, Hook::Decide));
-    // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer all begin anew [Thesis ch. 6 §4].
+    // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
     let anew = context.section > 0 && pass == 0;
     let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
     let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
     draw.define(feature::defines(context, Hook::Ray));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Decide));
+    draw.define(anew.then_some("BEGINS"));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize([constants::projection(context)]);

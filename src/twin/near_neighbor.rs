@@ -64,6 +64,10 @@ impl Twin<'_> {
 
 /// Marks the section in which the ray next has work, or death.
 pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    // Behind a layer that the ray does not have it keeps its mark.
+    if pass == 0 && pixel.section as usize > pixel.layers.len() {
+        return Effect::Discarded;
+    }
     let next = if twin.saturated(pixel) { twin.passes } else { twin.next_section(pixel, pass) };
     pixel.stored = twin.decision_depth(next);
     Effect::Silent
