@@ -15,7 +15,7 @@ pub enum Usage {
     ColorKept,
     DepthWrite,
     DepthTest,
-    /// Tested and written from a clear on, and not needed afterwards.
+    /// A depth buffer that is cleared, tested and written, and that nobody needs afterwards.
     DepthAnew,
     /// Read by the fragment shader.
     Sampled,

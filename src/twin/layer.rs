@@ -8,14 +8,14 @@ use crate::scene::settings::Last;
 /// the face of the box is counted in steps.
 const SURFACE_ROUNDING: f64 = 4e-7;
 
-/// Blends the colours of a layer under what is in front of it; the layer behind all that are peeled is opaque.
+/// Blends the colour of a transparent layer under what is in front of it.
 pub fn layer(_: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
     let Some(surface) = pixel.layers.get(layer as usize).copied() else { return Effect::Discarded };
     pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
 
-/// The same of the opaque surface.
+/// Blends the colour of the opaque surface under what is in front of it.
 pub fn opaque(_: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let Some(surface) = pixel.opaque else { return Effect::Discarded };
     pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);

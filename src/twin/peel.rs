@@ -7,16 +7,14 @@ use crate::scene::mesh::Crossing;
 /// The nearest opaque surface.
 pub fn opaque(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let crossings = twin.crossings(pixel);
-    let nearest = crossings.iter().find(|one| twin.scene.polygons.material(one.triangle).is_opaque());
-    pixel.opaque = nearest.map(|one| twin.surface(pixel, one));
+    pixel.opaque = twin.scene.polygons.seen(&crossings).1.map(|one| twin.surface(pixel, one));
     if pixel.opaque.is_some() { Effect::Silent } else { Effect::Discarded }
 }
 
 /// The transparent surface behind `layer` others, in front of the opaque one.
 pub fn transparent(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
     let crossings = twin.crossings(pixel);
-    let mut in_front = crossings.iter().take_while(|one| !twin.scene.polygons.material(one.triangle).is_opaque());
-    let Some(crossing) = in_front.nth(layer as usize) else { return Effect::Discarded };
+    let Some(crossing) = twin.scene.polygons.seen(&crossings).0.get(layer as usize) else { return Effect::Discarded };
     let surface = twin.surface(pixel, crossing);
     pixel.layers.push(surface);
     Effect::Silent

@@ -16,10 +16,10 @@ pub const MOST_TRIANGLES: usize = 1 << 24;
 /// How a mesh looks, in linear light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Of its fronts and its backs.
+    /// The linear colours of the mesh's fronts and of its backs.
     pub colors: [[f64; 3]; 2],
     pub opacity: f64,
-    /// Whether backs show.
+    /// Whether the mesh's backs show.
     pub two_sided: bool,
 }
 
@@ -173,14 +173,15 @@ impl Polygons {
     /// lit colours, premultiplied.
     pub fn surfaces(&self, rays: &ViewRays, pixel: [u32; 2], most: u32) -> Vec<(f64, [f64; 4])> {
         let crossings = self.crossings(rays, pixel, 0.0).list;
-        let opaque = |one: &Crossing| self.material(one.triangle).is_opaque();
-        let end = crossings.iter().position(opaque);
-        let (in_front, ending) = match end {
-            Some(at) => (&crossings[..at], &crossings[at..=at]),
-            None => (&crossings[..], &[][..]),
-        };
-        let shown = in_front.iter().take(most as usize).chain(ending);
+        let (transparent, opaque) = self.seen(&crossings);
+        let shown = transparent.iter().take(most as usize).chain(opaque);
         shown.map(|one| (one.depth, self.lit(rays.direction(pixel[0], pixel[1]), one))).collect()
+    }
+
+    /// Of sorted crossings the transparent ones that an opaque one does not hide, and that opaque one.
+    pub fn seen<'a>(&self, crossings: &'a [Crossing]) -> (&'a [Crossing], Option<&'a Crossing>) {
+        let end = crossings.iter().position(|one| self.material(one.triangle).is_opaque());
+        (&crossings[..end.unwrap_or(crossings.len())], end.map(|at| &crossings[at]))
     }
 
     /// Of each pixel, row by row, how many transparent surfaces lie behind the first `most`, in front of opaque ones.
@@ -190,8 +191,7 @@ impl Polygons {
         }
         let pixel = |i: u32| {
             let crossings = self.crossings(rays, [i % size[0], i / size[0]], 0.0).list;
-            let in_front = crossings.iter().take_while(|one| !self.material(one.triangle).is_opaque());
-            (in_front.count() as u32).saturating_sub(most)
+            (self.seen(&crossings).0.len() as u32).saturating_sub(most)
         };
         (0..size[0] * size[1]).into_par_iter().map(pixel).collect()
     }

@@ -19,28 +19,28 @@ pub struct MeshSettings {
     /// `NAME` or `NAME:SEGMENTS`, see [`crate::scene::mesh::SHAPES`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub builtin: Option<String>,
-    /// Linear red, green and blue of its fronts.
+    /// Linear red, green and blue of the mesh's fronts.
     #[serde(deserialize_with = "fixed::list")]
     pub color: [f64; 3],
-    /// The same of its backs; that of its fronts where nothing is said.
+    /// Linear red, green and blue of the mesh's backs; those of its fronts where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     pub back: Option<[f64; 3]>,
-    /// 1 hides what is behind.
+    /// Opacity of the mesh's surface, from 0 to 1, which hides what is behind.
     pub opacity: f64,
-    /// Whether backs show.
+    /// Whether the mesh's backs show.
     pub two_sided: bool,
-    /// Moves its box to the centre first, and makes the box's longest side that long.
+    /// Length of the longest side of the mesh's box, whose middle is moved to 0,0,0; before all that follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit: Option<f64>,
-    /// Then makes it larger by this factor.
+    /// Factor by which the mesh is made larger, after `fit`.
     pub scale: f64,
-    /// Then turns it by these degrees about x, about y, and about z.
+    /// Degrees by which the mesh is turned about x, about y and about z, in this order, after `scale`.
     #[serde(deserialize_with = "fixed::list")]
     pub rotate: [f64; 3],
-    /// Then moves it.
+    /// Where the mesh is moved, after `rotate`.
     #[serde(deserialize_with = "fixed::list")]
     pub translate: [f64; 3],
-    /// At last takes each corner (x, y, z, 1) to its products with these three rows.
+    /// Three rows, whose products with (x, y, z, 1) take the place of each corner, after `translate`.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional_lists")]
     pub transform: Option<Vec<[f64; 4]>>,
 }
