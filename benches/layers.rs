@@ -8,12 +8,14 @@ use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::method;
 use depthleap::read;
 use depthleap::scene::Camera;
-use depthleap::scene::settings::{MeshSettings, MethodName, MethodSettings, Settings};
+use depthleap::scene::settings::{MeshSettings, MethodName, MethodSettings, PartialSegments, Settings};
 use depthleap::vulkan::{Device, Instance, pick};
 
 /// Azimuth, elevation (degrees) and distance of the rotated view.
 const VIEW: [f64; 3] = [30.0, 20.0, 1.91];
 const METHODS: [MethodName; 3] = [method::RC_ERT.name(), method::NN_OMNI.name(), method::NN_OPTIMAL.name()];
+/// Where segments that end at a surface are drawn [Thesis ch. 6 §2.2, §7].
+const PLACES: [PartialSegments; 2] = [PartialSegments::Within, PartialSegments::Apart];
 const EFFORT: Effort = Effort { warmups: 2, repeats: 9, reference: false };
 /// A sphere has two layers.
 const SPHERES: u32 = 4;
@@ -25,13 +27,15 @@ fn main() -> depthleap::Result<()> {
     let device = Device::new(&instance, &info, false)?;
     let checked = Checked { check: self_check(&device)?, device, early_end: None };
     println!(
-        "{:>6}  {:<12} {:>20} {:>7} {:>12} {:>14}",
-        "layers", "method", "CPU ms (MAD)", "to none", "main", "intermediate"
+        "{:>6}  {:<7} {:<12} {:>20} {:>7} {:>12} {:>14}",
+        "layers", "partial", "method", "CPU ms (MAD)", "to none", "main", "intermediate"
     );
     let mut none = [f64::NAN; METHODS.len()];
-    for layers in 0..=2 * SPHERES {
+    // Without a layer nothing ends at a surface.
+    let cases = (0..=2 * SPHERES).flat_map(|layers| PLACES.map(|place| (layers, place)));
+    for (layers, place) in cases.filter(|(layers, place)| *layers > 0 || *place == PartialSegments::Within) {
         let methods = METHODS.map(|name| MethodSettings { name, ..MethodSettings::default() });
-        let mut runner = Runner::new(Some(&checked), read::scene(&scene(layers))?, "shells:128".to_owned());
+        let mut runner = Runner::new(Some(&checked), read::scene(&scene(layers, place))?, "shells:128".to_owned());
         for (i, one) in runner.measure(&methods, EFFORT, &|_| {})?.into_iter().enumerate() {
             let run = &one.run;
             let cpu = run.host.cpu.map_or(f64::NAN, |time| time.value);
@@ -40,7 +44,8 @@ fn main() -> depthleap::Result<()> {
                 none[i] = cpu;
             }
             println!(
-                "{layers:>6}  {:<12} {cpu:>12.1} ({mad:>5.1}) {:>7.2} {:>12} {:>14}",
+                "{layers:>6}  {:<7} {:<12} {cpu:>12.1} ({mad:>5.1}) {:>7.2} {:>12} {:>14}",
+                format!("{place:?}").to_lowercase(),
                 run.method,
                 cpu / none[i],
                 run.fragments.main,
@@ -52,13 +57,13 @@ fn main() -> depthleap::Result<()> {
 }
 
 /// Transparent spheres, of which the nearest `layers` surfaces are drawn; none of them for 0.
-fn scene(layers: u32) -> Settings {
+fn scene(layers: u32, place: PartialSegments) -> Settings {
     let mut settings = Settings::default();
     settings.volume.builtin = Some("shells:128".to_owned());
     let [azimuth, elevation, distance] = VIEW;
     settings.camera.eye = Camera::orbit(azimuth, elevation, distance, settings.camera.fov_y).eye.to_array();
     if layers > 0 {
-        settings.layers.most = layers;
+        (settings.layers.most, settings.layers.partial) = (layers, place);
         settings.meshes = (1..=SPHERES)
             .map(|i| MeshSettings {
                 builtin: Some("sphere".to_owned()),

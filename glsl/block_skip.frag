@@ -7,7 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -83,6 +83,13 @@ void main() {
     bool saturated = false;
 #else
     bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
+#endif
+#ifdef PARTIAL_APART
+    if (!saturated && only_partial(ray, this_step.pass)) {
+        bool shows = segment_visible(ray, segment_begin(ray, (ray.samples - 1u) / SAMPLES_PER_PASS), ray.samples);
+        MARK(shows ? PARTIAL_DEPTH : DEAD);
+        return;
+    }
 #endif
     if (begins_later(ray, this_step.pass) && !saturated) {
         MARK(SKIPPED);

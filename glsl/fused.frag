@@ -16,7 +16,7 @@
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
 //@takes [DENSE], [ENDLESS], [VALUES]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 // RES comes first.
 #define MARK_LOCATION 1
@@ -52,10 +52,20 @@ layout(location = 0) out vec4 contribution;
 #ifdef ENDLESS
 #define alive_before() true
 #define saturated_by(segment) false
+#ifdef PARTIAL_APART
+#define alive_by(segment) true
+#endif
 #else
 bool alive_before() {
     return !ended(subpassLoad(accumulated), 0.0);
 }
+
+#ifdef PARTIAL_APART
+// Whether a ray goes on with a segment added, whatever the blend unit rounds.
+bool alive_by(vec4 segment) {
+    return !ended(joined(subpassLoad(accumulated), segment), -BLEND_ROUNDING);
+}
+#endif
 
 bool saturated_by(vec4 segment) {
     return ended(joined(subpassLoad(accumulated), segment), BLEND_ROUNDING);
@@ -70,12 +80,24 @@ void main() {
         if (alive_before()) {
             Ray ray = load_ray();
             uint next = next_section(ray, this_step.pass);
+#ifdef PARTIAL_APART
+            bool goes_on = true;
+#endif
             if (next == this_step.pass) {
                 segment = segment_color(ray, this_step.pass);
+#ifdef PARTIAL_APART
+                goes_on = alive_by(segment);
+#endif
                 next = saturated_by(segment) ? frame.passes : next_section(ray, this_step.pass + 1u);
             }
             // Always ahead, so that depths rise.
             depth = decision_depth(next, false);
+#ifdef PARTIAL_APART
+            // One that may have ended is looked at in its next main pass.
+            if (goes_on && next < frame.passes && only_partial(ray, next)) {
+                depth = PARTIAL_DEPTH;
+            }
+#endif
         }
     }
     DROP_UNLESS(runs);

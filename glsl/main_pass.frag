@@ -1,13 +1,15 @@
 // Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2]. M samples of the ray's segment for this pass, joined
 // front to back; the blend unit joins the segment with what the pixel has already.
 //
+// PARTIAL: behind all other main passes, the segments that end at a surface, of rays that were left for it [Thesis ch. 6 §7].
+//
 // Departure: a ray that has left the volume takes no samples, and the intermediate pass knows its length; KW03
 // writes opacity 1 to RES for it, which would change the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
 //@takes [VALUES]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
@@ -34,7 +36,13 @@ void main() {
     vec4 segment = no_sample();
     bool runs = may_run();
     if (runs) {
-        segment = segment_color(load_ray(), this_step.pass);
+        Ray ray = load_ray();
+#ifdef PARTIAL
+        uint pass = (max(ray.samples, 1u) - 1u) / SAMPLES_PER_PASS;
+#else
+        uint pass = this_step.pass;
+#endif
+        segment = segment_color(ray, pass);
     }
     DROP_UNLESS(runs);
     accumulated = segment;

@@ -10,7 +10,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD | BEGINS], [DENSE], [ENDLESS]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
@@ -27,6 +27,12 @@
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
 #endif
 
+#ifdef PARTIAL_APART
+// A segment that ends at a surface is left for its own pass as soon as it comes next, not only on arrival: main passes that mark
+// would run for it, and take no sample.
+layout(constant_id = 18) const bool PARTIAL_AHEAD = false;
+#endif
+
 float decide(Ray ray) {
 #ifndef ENDLESS
     if (ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0)) {
@@ -34,12 +40,18 @@ float decide(Ray ray) {
     }
 #endif
     uint next = next_section(ray, this_step.pass);
-    return decision_depth(next, next == this_step.pass);
+    bool arrived = next == this_step.pass;
+#ifdef PARTIAL_APART
+    if ((arrived || PARTIAL_AHEAD) && next < frame.passes && only_partial(ray, next)) {
+        return PARTIAL_DEPTH;
+    }
+#endif
+    return decision_depth(next, arrived);
 }
 
 void main() {
 #ifdef BEGINS
-    if (layer_before().x == 0.0) {
+    if (!goes_on(layer_before())) {
         discard;
     }
 #endif

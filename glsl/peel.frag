@@ -4,62 +4,64 @@
 // Departures: 1. Depth is near over depth, computed from the triangle's plane, and greater where nearer. 2. Of surfaces at one
 // depth the one with the least number is nearest: fragments arrive in the order of their triangles, and the depth test keeps the
 // first of equals; so coplanar faces are layers one after the other, and none is lost or comes twice. 3. Opaque polygons are
-// peeled once and no further.
+// peeled once and no further. 4. Clip geometry that keeps what is inside or outside is peeled with the others, without a colour
+// (CLIPPED). 5. Clip geometry that hides what is in front of its first surface is drawn before the others, which begin behind it
+// (CLIP_FIRST): the thesis draws it after them with the depth test reversed, so that it takes the place of what is in front of it,
+// and a layer with it [Thesis ch. 6 §3]. The picture is the same, and so is what main passes read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [LAYER_BEFORE], [OPAQUE]
+//@takes [LAYER_BEFORE], [OPAQUE], [COLORED], [CLIPPED], [CLIP_FIRST]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"
 #include "shared/ray.glsl"
 #include "shared/layer.glsl"
-
-struct Triangle {
-    // Unit normal, and distance of the plane from the eye: high and low parts.
-    vec4 plane[2];
-    uint material;
-};
-layout(set = 0, binding = 16, std430) readonly buffer Triangles {
-    Triangle list[];
-} triangles;
-
-struct Material {
-    // Linear colour and opacity, of fronts and of backs.
-    vec4 colors[2];
-    uint two_sided;
-};
-layout(set = 0, binding = 17, std430) readonly buffer Materials {
-    Material list[];
-} materials;
+#include "shared/polygon.glsl"
+#ifdef CLIPPED
+#include "shared/clip.glsl"
+#endif
 
 layout(location = 0) flat in uint triangle;
 
 layout(location = 0) out vec4 surface;
+#ifdef COLORED
 layout(location = 1) out vec4 color;
+#endif
 
 // A light at the eye: the part of a colour that shows where it is seen from the side.
 const float AMBIENT = 0.3;
 
+#ifdef LAYER_BEFORE
+// The layer before. A ray that meets no clip geometry keeps its polygons and loses the volume.
+vec4 before_all() {
+    vec4 before = layer_before();
+#ifdef CLIP_FIRST
+    before = before.x == 0.0 ? vec4(1.0, 0.0, 0.0, -1.0) : vec4(before.xyz, 1.0);
+#endif
+    return before;
+}
+#endif
+
+#ifdef CLIPPED
+// Whether the volume is kept behind the surface, and within which clip meshes it is.
+float state_behind(Meeting found) {
+#ifdef LAYER_BEFORE
+    float state = before_all().w;
+#else
+    float state = clip_state_at_begin(vec4(0.0));
+#endif
+    return found.material.clip == 0u ? state : clip_state_behind(state, found.material.clip - 1u, found.front);
+}
+#endif
+
 void main() {
     vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
-    Triangle here = triangles.list[triangle];
-    vec2 slope = vec2(0.0);
-    vec2 square = vec2(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        vec2 direction = ray_direction(pixel, axis);
-        slope = df_add(slope, df_multiply(direction, vec2(here.plane[0][axis], here.plane[1][axis])));
-        square = df_add(square, df_multiply(direction, direction));
-    }
-    float length = df_sqrt(square).x;
-    vec2 depth = df_divide(vec2(here.plane[0].w, here.plane[1].w), slope);
-    bool front = slope.x < 0.0;
-    Material material = materials.list[here.material];
-
-    float key = frame.near / depth.x;
+    Meeting found = meet(triangle, pixel);
+    float key = frame.near / found.depth.x;
     float number = float(triangle) + 1.0;
-    bool shown = slope.x != 0.0 && depth.x >= frame.near && (front || material.two_sided != 0u);
+    bool shown = found.shown;
 #ifdef LAYER_BEFORE
-    vec4 before = layer_before();
+    vec4 before = before_all();
     shown = shown && (key < before.x || (key == before.x && number > before.y));
 #endif
 #ifdef OPAQUE
@@ -69,10 +71,15 @@ void main() {
     if (!shown) {
         discard;
     }
-    vec2 way = df_add(depth, -box_interval(pixel).enter);
-    surface = vec4(key, number, way.x * length, 0.0);
-    vec4 look = material.colors[front ? 0 : 1];
-    float light = AMBIENT + (1.0 - AMBIENT) * abs(slope.x) / length;
+    vec2 way = df_add(found.depth, -box_interval(pixel).enter);
+    surface = vec4(key, number, way.x * found.stretch, 0.0);
+#ifdef CLIPPED
+    surface.w = state_behind(found);
+#endif
+#ifdef COLORED
+    vec4 look = found.material.colors[found.front ? 0 : 1];
+    float light = AMBIENT + (1.0 - AMBIENT) * abs(found.slope) / found.stretch;
     color = vec4(look.rgb * (light * look.a), look.a);
+#endif
     gl_FragDepth = key;
 }

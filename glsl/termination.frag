@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -15,11 +15,23 @@
 #include "shared/opacity.glsl"
 #include "shared/projection.glsl"
 
+#ifndef ENDLESS
 layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#endif
 
 void main() {
     Ray ray = load_ray();
     bool gone = this_step.pass * SAMPLES_PER_PASS >= ray.samples;
+#ifdef ENDLESS
+    bool saturated = false;
+#else
     bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
+#endif
+#ifdef PARTIAL_APART
+    if (!saturated && only_partial(ray, this_step.pass)) {
+        MARK(PARTIAL_DEPTH);
+        return;
+    }
+#endif
     MARK(gone || saturated ? DEAD : begins_later(ray, this_step.pass) ? SKIPPED : 0.0);
 }

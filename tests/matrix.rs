@@ -7,6 +7,7 @@ mod scenes;
 use std::collections::BTreeSet;
 
 use depthleap::feature::FEATURES;
+use depthleap::feature::layers::first_section;
 use depthleap::frame::{Structures, cpu};
 use depthleap::method::{METHODS, RC, without_skipping};
 use depthleap::part::rows::{Context, Feature, Method, Why};
@@ -28,7 +29,7 @@ fn seen(features: &[&Feature]) -> Vec<Seen> {
             for form in scenes::forms(method) {
                 let plan = plan(&scene, form).unwrap_or_else(|e| panic!("{name}, {}: {e}", method.name));
                 let context = Context::new(&scene, &plan.view, method, form, plan.passes);
-                for part in context.sections() {
+                for part in context.sections(first_section(&context)) {
                     for (seen, feature) in seen.iter_mut().zip(features) {
                         let there = part.has(feature);
                         *seen = Seen { there: seen.there || there, lacking: seen.lacking || !there };

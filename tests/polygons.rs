@@ -133,7 +133,7 @@ fn fitted_turned_and_moved_in_that_order() {
         translate: [1.0, 2.0, 3.0],
         ..mesh("box")
     };
-    let place = settings.place([DVec3::splat(10.0), DVec3::splat(14.0)]);
+    let place = settings.placed().place([DVec3::splat(10.0), DVec3::splat(14.0)]);
     // (12, 13, 12): (0, 1, 0) about the centre, halved to (0, 0.5, 0), 1.5 long, turned to z.
     let found = place.transform_point3(DVec3::new(12.0, 13.0, 12.0));
     assert!((found - DVec3::new(1.0, 2.0, 4.5)).length() < 1e-12, "{found}");
@@ -149,12 +149,12 @@ fn transparent_triangles_come_first_and_opaque_ones_end_rays() {
     assert!(polygons.transparent().all(|i| !polygons.material(i as u32).is_opaque()));
     assert_eq!(polygons.opaque().len(), 12);
     let rays = scene.camera.rays([41, 31]).unwrap();
-    let surfaces = polygons.surfaces(&rays, [20, 15], 8);
+    let surfaces = polygons.divided(&rays, [20, 15], 8).surfaces;
     assert_eq!(surfaces.len(), 2, "{surfaces:?}");
-    assert_eq!([surfaces[0].1[3], surfaces[1].1[3]], [0.5, 1.0]);
+    assert_eq!([surfaces[0].color[3], surfaces[1].color[3]], [0.5, 1.0]);
     // Looked at from behind: as many.
     let behind = scene.clone().seen_by(Camera { eye: DVec3::new(0.0, 0.0, -2.0), ..(&scene.settings.camera).into() });
-    assert_eq!(behind.polygons.surfaces(&behind.camera.rays([41, 31]).unwrap(), [20, 15], 8).len(), 2);
+    assert_eq!(behind.polygons.divided(&behind.camera.rays([41, 31]).unwrap(), [20, 15], 8).surfaces.len(), 2);
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use depthleap::method;
 use depthleap::read;
-use depthleap::scene::Settings;
 use depthleap::scene::settings::TransferSettings;
 use depthleap::scene::transfer::TransferFunction;
+use depthleap::scene::{Settings, scenes};
 use tempfile::TempDir;
 
 fn file(name: &str, text: &str) -> (TempDir, PathBuf) {
@@ -226,4 +226,22 @@ fn wrong_transfer_function_files_are_refused() {
 fn one_source_of_the_transfer_function_is_allowed() {
     let both = TransferSettings { preset: Some("ramp".into()), points: Some(vec![[0.0; 5]]), ..Default::default() };
     assert!(read::transfer(&both, Path::new("")).unwrap_err().to_string().contains("more than one"));
+}
+
+#[test]
+fn built_in_scenes_are_whole_and_their_forms_name_their_volume() {
+    for row in scenes::ALL {
+        let settings = read::settings_of(row.name, row.text, Path::new("")).unwrap();
+        assert!(settings.volume.path.is_none() && settings.volume.builtin.is_some(), "{}", row.name);
+        let scene = read::scene(&settings).unwrap();
+        assert_eq!(scene.polygons.show(), !settings.meshes.is_empty(), "{}", row.name);
+        assert_eq!(scene.polygons.clips().len(), settings.clips.len(), "{}", row.name);
+        for form in row.on_data {
+            let settings = read::settings_of(form.file, form.text, Path::new("data")).unwrap();
+            assert_eq!(settings.volume.path, Some(Path::new("data").join(form.file)));
+            settings.check().unwrap();
+        }
+    }
+    let bad = read::settings_of("here", "[camera]\nye = 1", Path::new("")).unwrap_err().to_string();
+    assert!(bad.contains("here, line 2") && bad.contains("eye"), "{bad}");
 }

@@ -1,6 +1,6 @@
 //! Scene parts: transfer functions, camera, field, built-in volumes.
 
-use depthleap::scene::builtin::{self, Builtin};
+use depthleap::scene::builtin::{self, Builtin, BuiltinVoxels};
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::CameraSettings;
 use depthleap::scene::transfer::{Knot, PRESETS, TransferFunction};
@@ -204,7 +204,8 @@ fn builtin_voxels_are_the_values_at_their_centres() {
 
 #[test]
 fn sparse_builtins_are_mostly_empty_but_not_all_and_0_at_the_faces() {
-    for name in ["shells", "jets", "blocks"] {
+    let sparse = builtin::ALL.iter().filter(|row| row.stored == BuiltinVoxels::U8);
+    for name in sparse.map(|row| row.name) {
         for size in [64, 128] {
             let field =
                 Field::new(builtin::volume(&format!("{name}:{size}")).unwrap(), None, NanPolicy::Replace).unwrap();
@@ -242,4 +243,25 @@ fn builtin_sizes_out_of_range_are_refused() {
     for size in ["0", "2049", "-1", "x", "", "1x2", "1x2x3x4", "2048", "1025x1024x1024", "99999999999999999999"] {
         builtin::volume(&format!("linear:{size}")).unwrap_err();
     }
+}
+
+#[test]
+fn engine_has_a_casting_with_bores_and_steel_around_them() {
+    let at = |x, y, z| builtin::find("engine").unwrap().value(DVec3::new(x, y, z));
+    let is = |density: f64, value: f64| (density - value).abs() < 1e-12;
+    assert!(is(0.45, at(0.0, 0.3, 0.0)) && is(1.0, at(0.36, 0.3, 0.27)), "casting, and the liner in it");
+    assert_eq!([at(0.36, 0.3, 0.0), at(0.0, -0.42, 0.0), at(0.0, 0.7, 0.0)], [0.0; 3], "bore, tunnel, outside");
+    assert!(is(1.0, at(-0.62, 0.2, 0.3)), "a bolt");
+}
+
+#[test]
+fn head_has_skin_skull_and_brain_with_ventricles() {
+    let at = |x, y, z| builtin::find("head").unwrap().value(DVec3::new(x, y, z));
+    let along_y = |part: f64| at(0.0, 0.84 * part, 0.0);
+    assert_eq!([along_y(1.0), along_y(0.88), along_y(0.71)], [0.0; 3], "outside, below the skin, below the skull");
+    assert_eq!(along_y(0.8), 1.0, "skull");
+    assert!((0.3..0.4).contains(&along_y(0.96)), "skin: {}", along_y(0.96));
+    assert!((0.38..=0.55).contains(&along_y(0.5)), "brain: {}", along_y(0.5));
+    assert_eq!(at(0.12, 0.08, 0.0), 0.0, "a ventricle");
+    assert!(at(0.0, -0.08, 0.84) > 0.1, "the nose stands out of the face");
 }

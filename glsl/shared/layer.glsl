@@ -3,8 +3,10 @@
 // LAYER_BEFORE: the part of the ray that is drawn begins at a layer; a ray without that layer has no such part.
 // LAYER_BEHIND: it ends at the next layer, where the ray has one. OPAQUE: it ends at the nearest opaque polygon.
 //
+// CLIPPED: it is not drawn behind a layer that says so.
+//
 // A texel: near over depth (0 where there is no surface), one more than the triangle's number, the distance from where the
-// ray enters the box (volume space, negative in front of it).
+// ray enters the box (volume space, negative in front of it), and below 0 where clip geometry keeps nothing behind the surface.
 //
 // It is that distance that places a surface, and near over depth by which surfaces are ordered: both are found once a pixel,
 // from the triangle's plane in double-floats. A depth buffer's z/w has no digits left for it: at the volume it differs by

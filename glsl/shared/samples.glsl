@@ -34,6 +34,17 @@ struct Ray {
 // The last sample stands for what is left of the ray only; one that a surface cuts, for what is left of its step.
 layout(constant_id = 5) const bool LAST_PARTIAL = false;
 
+#ifdef LAYER_BEFORE
+// Whether a ray has a part behind a layer that is drawn.
+bool goes_on(vec4 before) {
+#ifdef CLIPPED
+    return before.x > 0.0 && before.w >= 0.0;
+#else
+    return before.x > 0.0;
+#endif
+}
+#endif
+
 #ifdef LAYERS
 // Cuts a ray at the layers before and behind: its samples are those of the whole ray that lie between or, where they stand
 // for parts of steps, whose steps do so in part.
@@ -47,7 +58,7 @@ void cut(inout Ray ray) {
     }
 #ifdef LAYER_BEFORE
     vec4 before = layer_before();
-    ray.begin = before.x > 0.0 ? max(before.z * frame.inverse_step, 0.0) : ray.steps;
+    ray.begin = goes_on(before) ? max(before.z * frame.inverse_step, 0.0) : ray.steps;
 #endif
     ray.first = 0u;
     ray.samples = 0u;
@@ -120,6 +131,21 @@ bool begins_later(Ray ray, uint pass) {
     return false;
 #endif
 }
+
+#ifdef PARTIAL_APART
+// Depth of a ray of which nothing is left but the segment that ends at a surface: below that of a dead one, above all others, and
+// another in each part of the ray (partial_depth in src/twin/section.rs).
+layout(constant_id = 17) const float PARTIAL_DEPTH = 0.75;
+
+// Whether the part of the ray that is drawn ends at a surface, and main pass `pass` is the one of its last segment or behind.
+bool only_partial(Ray ray, uint pass) {
+#ifdef LAYERS
+    return ray.end < ray.steps && ray.samples > 0u && (ray.samples - 1u) / SAMPLES_PER_PASS <= pass;
+#else
+    return false;
+#endif
+}
+#endif
 
 // Steps from the entry point to sample `i`: from the index, never from adding steps up.
 float steps_to(uint i) {

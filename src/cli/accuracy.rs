@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{SceneOptions, is_scene_file, method_parser, scene_name};
+use super::options::{SceneOptions, is_whole_scene, method_parser, scene_name};
 use super::output::{self, Progress};
 use crate::error::Result;
 use crate::experiment::Host;
@@ -29,7 +29,7 @@ use crate::scene::settings::MethodName;
   depthleap accuracy fuel.nrrd --method rc,nn-omni --steps 2,1,0.5,0.25 -o out
   depthleap accuracy builtin:marschner-lobb:41 --full --viewport 100x100 -o out")]
 pub struct AccuracyCommand {
-    /// Scene file (.toml), volume file or builtin:NAME:SIZE [default: builtin:shells:64]
+    /// Scene file (.toml), volume file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
     /// Folder for the files; made where it is missing
@@ -73,11 +73,11 @@ impl AccuracyCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
-        let of_a_file = self.scene.as_deref().is_some_and(is_scene_file);
-        if self.scene_options.given.image.size.is_none() && !of_a_file {
+        let whole_scene = self.scene.as_deref().is_some_and(is_whole_scene);
+        if self.scene_options.given.image.size.is_none() && !whole_scene {
             settings.image.size = [SIDE; 2];
         }
-        if self.scene_options.given.sampling.termination.is_none() && !of_a_file {
+        if self.scene_options.given.sampling.termination.is_none() && !whole_scene {
             settings.sampling.termination = TERMINATION;
         }
         let job = AccuracyJob {

@@ -32,7 +32,7 @@ use crate::scene::settings::{CELLS, EXTRA_FETCHES, MethodName, Settings};
   depthleap bench engine.nrrd --method rc-block,nn-omni --cells 1,2,4,8 -o out
   depthleap render --from out/results.json#3 -o again.png")]
 pub struct BenchCommand {
-    /// Scene files (.toml), volume files or builtin:NAME:SIZE
+    /// Scene files (.toml), volume files, builtin:NAME:SIZE or built-in scenes
     #[arg(value_name = "SCENE|VOLUME", default_values = BUILT_IN)]
     scenes: Vec<OsString>,
     /// Folder for report.html, results.json and results.csv; made where it is missing
@@ -77,8 +77,10 @@ enum Forms {
     All,
 }
 
-/// What is run when no scene is given: a surface, thin structures in empty space, solid blocks.
-const BUILT_IN: [&str; 3] = ["builtin:shells:96", "builtin:jets:128", "builtin:blocks:96"];
+/// What is run when no scene is given: a surface, thin structures in empty space, solid blocks, polygons in a block, a clipped
+/// head.
+const BUILT_IN: [&str; 5] =
+    ["builtin:shells:96", "builtin:jets:128", "builtin:blocks:96", "builtin:engine-geometry", "builtin:head-clipped"];
 
 impl BenchCommand {
     pub fn run(&self) -> Result<()> {

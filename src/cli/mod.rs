@@ -20,6 +20,7 @@ use clap::{Parser, Subcommand};
 
 use crate::error::{Result, shown};
 use crate::measure::write::write_standard_error;
+use crate::scene::{builtin, scenes};
 
 /// A raw Vulkan volume renderer and bench for depth-bounds culling
 ///
@@ -27,7 +28,7 @@ use crate::measure::write::write_standard_error;
 /// counts every fragment, times every pass and checks every picture against an f64 reference.
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100, after_help = EXAMPLES)]
-#[command(after_long_help = format!("{EXAMPLES}\n\n{NOTES}"))]
+#[command(after_long_help = format!("{EXAMPLES}\n\n{INPUT}\n\n{}\n\n{NOTES}", built_in()))]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -38,6 +39,7 @@ const EXAMPLES: &str = "Examples:
   depthleap bench fuel.nrrd --tf ramp -o out             on a file
   depthleap render fuel.nrrd -o fuel.png                 one picture, its counts and times
   depthleap render builtin:shells:128 --method rc-ert -o -.png > shells.png
+  depthleap render builtin:engine-geometry -o engine.png polygons in a volume
   depthleap reproduce --data volumes -o out              the papers' tables, theirs beside ours
   depthleap probe -o out                                 what this driver culls before shading
   depthleap accuracy builtin:gaussian:64 -o out          error against run time
@@ -47,12 +49,12 @@ const EXAMPLES: &str = "Examples:
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
   depthleap info                                         devices, and which --cull works";
 
-const NOTES: &str = "Input:
-  A SCENE is a TOML file; every option has its key there, an option given wins. A VOLUME is an NRRD
-  file, a raw file with --dims and --type, or builtin:NAME:SIZE. Without either the volume is
-  builtin:shells:64.
+const INPUT: &str = "Input:
+  A SCENE is a TOML file or the builtin:NAME of a scene; every option has its key there, an option
+  given wins. A VOLUME is an NRRD file, a raw file with --dims and --type, or builtin:NAME:SIZE.
+  Without either the volume is builtin:shells:64.";
 
-Output:
+const NOTES: &str = "Output:
   Files are written to a temporary name and renamed: they are there completely or not at all. Where
   a file is asked for, - stands for standard output (a PNG; -.exr and -.npy name another format).
   Tables of `render` and progress go to standard error, progress on a terminal only.
@@ -69,6 +71,14 @@ Exit codes:
 Environment:
   VK_DRIVER_FILES  drivers the Vulkan loader offers (VK_ICD_FILENAMES for older loaders)
   NO_COLOR         no colours in messages";
+
+/// What is built in, each with what it is.
+fn built_in() -> String {
+    let line = |(name, about): (&str, &str)| format!("\n  {name:<16} {about}");
+    let volumes: String = builtin::ALL.iter().map(|row| line((row.name, row.about))).collect();
+    let scenes: String = scenes::ALL.iter().map(|row| line((row.name, row.about))).collect();
+    format!("Built-in volumes, builtin:NAME:SIZE:{volumes}\n\nBuilt-in scenes, builtin:NAME:{scenes}")
+}
 
 #[derive(Debug, Subcommand)]
 enum Command {

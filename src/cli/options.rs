@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::error::{Result, shown};
+use crate::error::{Error, Result, shown};
 use crate::method;
 use crate::part::rows::Method;
 use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
-use crate::scene::builtin;
 use crate::scene::settings::{MethodName, ProjectionName, Settings, SettingsOptions};
 use crate::scene::transfer::DEFAULT_PRESET;
+use crate::scene::{builtin, scenes};
 
 /// What to show, how to sample it, and by which passes: all options that have their key in a scene file.
 #[derive(Clone, Debug, Default, Args)]
@@ -25,18 +25,19 @@ pub struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The settings of `scene` (a scene file, a volume, `builtin:NAME:SIZE`, or nothing) under these options.
+    /// The settings of `scene` (a scene file, a volume, `builtin:NAME:SIZE`, the `builtin:NAME` of a scene, or nothing)
+    /// under these options.
     ///
     /// # Errors
-    /// When a scene file cannot be read.
+    /// When a scene file cannot be read, or nothing built in has the name.
     pub fn settings(&self, scene: Option<&OsStr>) -> Result<Settings> {
         let mut settings = Settings::default();
         match scene {
             None => {}
-            Some(name) if is_scene_file(name) => settings = read::settings(Path::new(name))?,
-            Some(name) => match name.to_str().and_then(|name| name.strip_prefix("builtin:")) {
-                Some(spec) => settings.volume.builtin = Some(spec.to_owned()),
-                None => settings.volume.path = Some(PathBuf::from(name)),
+            Some(name) => match (is_scene_file(name), built_in(name)) {
+                (true, _) => settings = read::settings(Path::new(name))?,
+                (false, Some(name)) => settings = built_in_settings(name)?,
+                (false, None) => settings.volume.path = Some(PathBuf::from(name)),
             },
         }
         self.apply(&mut settings);
@@ -54,7 +55,36 @@ pub fn is_scene_file(name: &OsStr) -> bool {
     name.as_encoded_bytes().ends_with(b".toml")
 }
 
-/// What a scene is called in tables: the file without its folder, or the built-in volume.
+/// Whether a scene says more than its volume: a scene file, or a built-in scene.
+pub fn is_whole_scene(name: &OsStr) -> bool {
+    is_scene_file(name) || built_in(name).is_some_and(|name| scenes::find(name).is_some())
+}
+
+/// What stands behind `builtin:`.
+fn built_in(name: &OsStr) -> Option<&str> {
+    name.to_str()?.strip_prefix("builtin:")
+}
+
+/// The settings of a built-in scene, or of a built-in volume alone.
+///
+/// # Errors
+/// When `spec` names neither.
+fn built_in_settings(spec: &str) -> Result<Settings> {
+    if let Some(scene) = scenes::find(spec) {
+        return read::settings_of(&format!("builtin:{}", scene.name), scene.text, Path::new(""));
+    }
+    let name = spec.split_once(':').map_or(spec, |(name, _)| name);
+    builtin::find(name).map_err(|e| {
+        let known = scenes::ALL.map(|scene| scene.name).join(", ");
+        Error { remedy: format!("{}; or of the scenes, which take no size: {known}", e.remedy), ..e }
+    })?;
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some(spec.to_owned());
+    Ok(settings)
+}
+
+/// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes and
+/// of its clip meshes.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
     let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
@@ -66,8 +96,18 @@ pub fn scene_name(settings: &Settings) -> String {
         (None, None) if transfer.points.is_some() => "points".to_owned(),
         (None, None) => DEFAULT_PRESET.to_owned(),
     };
+    let number = |n: usize, one: &str, more: &str| match n {
+        0 => None,
+        1 => Some(one.to_owned()),
+        n => Some(format!("{n} {more}")),
+    };
+    let meshes = number(settings.meshes.len(), "a mesh", "meshes");
+    let clips = number(settings.clips.len(), "a clip mesh", "clip meshes");
+    let geometry: Vec<String> = [meshes, clips].into_iter().flatten().collect();
+    let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.
-    shown(&format!("{}, {tf}", file.unwrap_or_else(built_in)).replace('\n', "\\n"))
+    let volume = file.unwrap_or_else(built_in);
+    shown(&format!("{volume}{with}{}, {tf}", geometry.join(" and ")).replace('\n', "\\n"))
 }
 
 /// The names of methods, each with what it is.

@@ -14,18 +14,20 @@ use crate::measure::write;
 
 /// The papers' tables, theirs beside ours
 ///
-/// Counts the fragments of the thesis' Tables 1 and 2 of chapter 5 and Table 1 of chapter 7 with its volumes, views and
-/// steps, and prints its numbers beside ours, with the ratios to block skipping. What the thesis leaves open is swept, one
-/// choice at a time. Volumes that are not there are named, and nothing stands in for them. Writes reproduce.html,
-/// reproduce.json and reproduce.csv.
+/// Counts the fragments of the thesis' Tables 1 and 2 of chapters 5 and 6 and of chapter 7 with its volumes, views and steps,
+/// and prints its numbers beside ours, with the ratios to block skipping; of chapter 6, polygons in the volume, with those to
+/// the same without. What the thesis leaves open is swept, one choice at a time. Volumes that are not there are named; none
+/// stands in for another but a foot in chapter 6, which is named as such. Where a volume is
+/// there, draws scenes like the thesis' figures too. Writes
+/// reproduce.html, reproduce.json, reproduce.csv and pictures/.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap reproduce --data volumes -o out
   depthleap reproduce --data volumes --quick -o out
   depthleap reproduce -o out                         the papers' numbers alone")]
 pub struct ReproduceCommand {
-    /// Folder with the volumes, by their names: engine_256cube.nrrd, fuel.nrrd; mri_head.nrrd and aneurism.nrrd are shown
-    /// besides
+    /// Folder with the volumes, by their names: engine_256cube.nrrd, fuel.nrrd, foot_cadaver.nrrd; mri_head.nrrd and
+    /// aneurism.nrrd are shown besides
     #[arg(long, value_name = "DIR")]
     data: Option<PathBuf>,
     /// Folder for the files; made where it is missing

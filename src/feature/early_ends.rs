@@ -24,7 +24,7 @@ pub fn may_end(context: &Context) -> bool {
     !context.plans()
         || match context.projection().ends {
             // Polygons add to the opacity, each as much as it likes.
-            Ends::Opaque if context.layers > 0 => context.scene.settings.sampling.termination < 1.0,
+            Ends::Opaque if context.blends => context.scene.settings.sampling.termination < 1.0,
             Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
             Ends::Reached => true,
             Ends::Never(_) => false,

@@ -3,6 +3,7 @@
 //! To add one: a file here with its row, a line in [`FEATURES`] (the order of the lines of plans), its code in the shaders at
 //! its hook with its f64 twin, and scenes that need it and do not need it in `tests/matrix/scenes.rs`, which a test asks for.
 
+mod apart;
 mod block_ranges;
 mod classification;
 mod colors;
@@ -21,12 +22,13 @@ mod reasons;
 mod start;
 mod transfer_function;
 
+pub use apart::APART;
 pub use block_ranges::BLOCK_RANGES;
 pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
-pub use layers::{DEPTH_LAYERS, OPAQUE_SURFACE};
+pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
 
 use crate::part::Constant;
@@ -39,13 +41,13 @@ use extra_fetches::EXTRA_FETCHES;
 use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
-use layers::{LAYER_BEFORE, LAYER_BEHIND};
+use layers::{CLIPPED, LAYER_BEFORE, LAYER_BEHIND};
 use opacity_correction::OPACITY_CORRECTION;
 use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 22] = [
+pub const FEATURES: [&Feature; 25] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -65,9 +67,12 @@ pub const FEATURES: [&Feature; 22] = [
     &TRANSFER_FUNCTION,
     &EXTRA_FETCHES,
     &DEPTH_LAYERS,
+    &CLIP_BEGIN,
     &LAYER_BEFORE,
+    &CLIPPED,
     &LAYER_BEHIND,
     &OPAQUE_SURFACE,
+    &APART,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

@@ -27,7 +27,8 @@ pub struct CpuFrame {
     pub ideal: u64,
 }
 
-/// Fragments of each main pass and of the intermediate pass before it.
+/// Fragments of each main pass and of the intermediate pass before it; where segments that end at a surface have a pass of their
+/// own, it comes last.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     pub main: Vec<u64>,
@@ -39,8 +40,8 @@ pub struct Counts {
 /// Fragments of the parts of rays that end at a layer, or behind all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LayerCounts {
-    /// Pixels of the layer at which this part ends.
-    pub pixels: u64,
+    /// Pixels of the layer at which this part ends; none where layers have no colours, whose pixels nobody draws.
+    pub pixels: Option<u64>,
     pub main: u64,
     pub intermediate: u64,
 }
@@ -58,16 +59,22 @@ impl Counts {
             self.layers.resize(self.layers.len().max(part + 1), LayerCounts::default());
         }
         let layer = self.layers.get_mut(part).filter(|_| !peels);
+        let pass = step.pass as usize;
+        if step.group == Group::Main && pass >= self.main.len() {
+            // The pass of segments that end at a surface.
+            self.main.resize(pass + 1, 0);
+            self.intermediate.resize(pass + 1, 0);
+        }
         match step.group {
             Group::Main => {
-                self.main[step.pass as usize] += fragments;
+                self.main[pass] += fragments;
                 layer.into_iter().for_each(|layer| layer.main += fragments);
             }
             Group::Intermediate => {
-                self.intermediate[step.pass as usize] += fragments;
+                self.intermediate[pass] += fragments;
                 layer.into_iter().for_each(|layer| layer.intermediate += fragments);
             }
-            Group::Blend => layer.into_iter().for_each(|layer| layer.pixels += fragments),
+            Group::Blend => layer.into_iter().for_each(|layer| *layer.pixels.get_or_insert(0) += fragments),
             _ => {}
         }
     }
@@ -93,6 +100,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         blocks: structures.blocks.as_ref().map(|b| &b.value),
         table: table.as_deref(),
         projection,
+        fused: plan.method.fused,
         levels: projection.levels_in_x(scene),
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
@@ -164,9 +172,9 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
     (frame, fragments)
 }
 
-/// Whether the fragment passes the step's tests. One rule for every form: stored <= bound.
+/// Whether the fragment passes the step's tests. One rule for every form: least <= stored <= bound.
 fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
-    pixel.stored <= f64::from(draw.bound)
+    (f64::from(draw.least)..=f64::from(draw.bound)).contains(&pixel.stored)
 }
 
 /// What geometries make of one pixel, each asked once.

@@ -201,7 +201,7 @@ impl GpuFrame {
         commands.viewport(self.full_area(), [draw.depth, draw.depth]);
         commands.scissor(area);
         if draw.test.bounds {
-            commands.depth_bounds(0.0, draw.bound);
+            commands.depth_bounds(draw.least, draw.bound);
         }
         let push = shared::PushStep { bound: draw.bound, pass: compiled.step.pass };
         if objects.pipeline.layout.push_constants > 0 {

@@ -6,6 +6,6 @@ mod polygons;
 mod screen;
 mod volume_box;
 
-pub use polygons::{OPAQUE_POLYGONS, TRANSPARENT_POLYGONS};
+pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
 pub use volume_box::{BOX_BACK, BOX_FRONT};

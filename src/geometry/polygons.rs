@@ -9,11 +9,19 @@ use crate::part::geometry::{Geometry, Hits, Sample};
 use crate::resource;
 use crate::scene::Scene;
 
-/// Those that show what is behind, in the order of their numbers.
-pub static TRANSPARENT_POLYGONS: Geometry = Geometry {
-    name: "transparent polygons",
-    range: |scene, _| corners(scene.polygons.transparent()),
-    hits: |scene, rays, sample| hits(scene, rays, sample, scene.polygons.transparent()),
+/// Those that divide rays, in the order of their numbers: transparent ones, and those of clip geometry.
+pub static PEELED_POLYGONS: Geometry = Geometry {
+    name: "peeled polygons",
+    range: |scene, _| corners(scene.polygons.peeled()),
+    hits: |scene, rays, sample| hits(scene, rays, sample, scene.polygons.peeled()),
+    ..POLYGONS
+};
+
+/// Those of clip geometry, in the order of their numbers.
+pub static CLIP_POLYGONS: Geometry = Geometry {
+    name: "clip geometry",
+    range: |scene, _| corners(scene.polygons.clipping()),
+    hits: |scene, rays, sample| hits(scene, rays, sample, scene.polygons.clipping()),
     ..POLYGONS
 };
 
@@ -25,7 +33,7 @@ pub static OPAQUE_POLYGONS: Geometry = Geometry {
     ..POLYGONS
 };
 
-/// What both have in common.
+/// What all have in common.
 const POLYGONS: Geometry = Geometry {
     name: "polygons",
     vertex: "polygons.vert",

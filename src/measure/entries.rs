@@ -21,8 +21,9 @@ pub struct CountsRecord {
 /// Fragments of the parts of rays that end at a layer, or behind all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LayerRecord {
-    /// Pixels of the layer at which this part ends.
-    pub pixels: u64,
+    /// Pixels of the layer at which this part ends; absent where layers have no colours, whose pixels nobody draws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<u64>,
     pub main: u64,
     pub intermediate: u64,
 }

@@ -29,10 +29,11 @@ pub fn gpu_times(timed: &[FrameRun]) -> Option<Timings> {
 }
 
 /// The median time of each pass.
-pub fn pass_times(timed: &[FrameRun], passes: u32) -> Option<PassTimes> {
+pub fn pass_times(timed: &[FrameRun], least: u32) -> Option<PassTimes> {
     timed.iter().find(|r| r.gpu_total_ms.is_some())?;
     let of = |group: Group| -> Vec<f64> {
-        (0..passes)
+        let passes = timed.iter().flat_map(|run| &run.step_ms).filter(|s| s.0 == Group::Main).map(|s| s.1 + 1);
+        (0..passes.max().unwrap_or(0).max(least))
             .map(|pass| {
                 // A pass runs once for each part of rays between layers.
                 let here = |r: &FrameRun| {

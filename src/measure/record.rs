@@ -47,8 +47,9 @@
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
-//! passes; where there are polygons `per_layer`: array of {`pixels`, `main`, `intermediate`} of the parts of rays that end at
-//! each layer}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}
+//! passes, with an entry more at their end where `layers.partial` is `apart`, that of the pass of segments that end at a
+//! surface (0 in the intermediate one); where there are polygons `per_layer`: array of {`pixels`, `main`, `intermediate`}
+//! of the parts of rays that end at each layer, without `pixels` where layers have no colours}. *times*: each a number, the median where it was repeated, with `NAME_stats` {`min`, `max`, `mad`, `n`}
 //! beside it: smallest, largest, median absolute deviation (milliseconds) and number of samples. So has every
 //! `..._ms` of a run. *error*: see [`ErrorRecord`].
 
@@ -58,8 +59,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 pub use super::entries::{
-    Clock, CountsRecord, DifferenceRecord, ErrorRecord, Ideal, LeftOutRecord, OrbitFrame, PassTimes, PictureRecord,
-    Saved, TextureRecord,
+    Clock, CountsRecord, DifferenceRecord, ErrorRecord, Ideal, LayerRecord, LeftOutRecord, OrbitFrame, PassTimes,
+    PictureRecord, Saved, TextureRecord,
 };
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};

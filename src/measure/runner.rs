@@ -300,9 +300,13 @@ fn parts_between_layers(run: &FrameRun) -> Option<String> {
     let told = |(i, layer): (usize, &LayerCounts)| {
         let place = if i == 0 { "in front".to_owned() } else { format!("behind layer {}", i - 1) };
         let LayerCounts { pixels, main, intermediate } = layer;
-        format!("{place} {main} main and {intermediate} intermediate, up to {pixels} pixels of polygons")
+        let up_to = pixels.map_or_else(String::new, |pixels| format!(", up to {pixels} pixels of polygons"));
+        format!("{place} {main} main and {intermediate} intermediate{up_to}")
     };
-    let parts: Vec<String> = layers.iter().enumerate().map(told).collect();
+    // Behind the last layer that a ray has there is nothing.
+    let anything = |layer: &LayerCounts| layer.main + layer.intermediate + layer.pixels.unwrap_or(0) > 0;
+    let last = layers.iter().rposition(anything);
+    let parts: Vec<String> = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().map(told).collect();
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 

@@ -12,11 +12,15 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
     let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
     if !known_empty && picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
         warnings.push(
-            "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step"
-                .to_owned(),
+            match scene.polygons.clips() {
+                [] => "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step",
+                _ => "the picture is empty: what shows is clipped, out of view or between samples; try another [[clip]] or view",
+            }
+            .to_owned(),
         );
     }
     warnings.extend(layers_left(scene, plan));
+    warnings.extend(uncovered(scene, plan));
     warnings.extend(background_left(scene, plan));
     warnings.extend(clipped(picture));
     warnings
@@ -27,13 +31,28 @@ fn layers_left(scene: &Scene, plan: &Plan) -> Option<String> {
     let most = scene.settings.layers.most;
     let lacking = scene.polygons.lacking(&plan.view.rays, plan.view.size, most);
     let (pixels, layers) = (lacking.iter().filter(|n| **n > 0).count(), lacking.iter().max().copied().unwrap_or(0));
+    let of = match scene.polygons.clips() {
+        [] => "layers of transparent polygons",
+        _ => "layers of transparent polygons and clip geometry",
+    };
     (pixels > 0).then(|| {
         let number = |n: usize, one: &str, more: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {more}") };
         format!(
-            "{} layers of transparent polygons, up to {}, since {most} are peeled: what lies behind is drawn without them; \
-             raise layers.most (--layers)",
+            "{} {of}, up to {}, since {most} are peeled: what lies behind is drawn, or clipped, as if they were not there; raise layers.most (--layers)",
             number(pixels, "pixel lacks", "pixels lack"),
             number(layers as usize, "layer", "of them"),
+        )
+    })
+}
+
+/// That clip geometry which cuts in front of its first surface does not cover the volume.
+fn uncovered(scene: &Scene, plan: &Plan) -> Option<String> {
+    let pixels = scene.polygons.uncovered(&plan.view.rays, plan.view.size, 0.5 * scene.field.extent());
+    (pixels > 0).then(|| {
+        format!(
+            "clip geometry does not cover the volume in {pixels} {} of its box, where nothing of the volume is drawn; make it \
+             larger, or use clip.keep = \"inside\" or \"outside\"",
+            if pixels == 1 { "pixel" } else { "pixels" }
         )
     })
 }

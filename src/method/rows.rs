@@ -1,12 +1,13 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
-use crate::feature::{BATCH, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES, START};
+use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
+use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES, START};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::{alive, clear, direction, entry, layer, main_pass, mark_copy, peel, start};
+use crate::pass::{alive, clear, clip_begin, clip_winding, direction, entry, layer, main_pass, mark_copy, peel, start};
 use crate::scene::settings::{Cull, Mark};
 
 /// Steps before the first main pass, and room for the uploads and builds that a plan puts in front of them: some thirty at
@@ -74,22 +75,38 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
         begin(context, steps);
     }
     let guards = peel(context, steps);
-    for part in context.sections() {
+    let first = first_section(context);
+    steps.enter(0, None);
+    // Passes behind a layer that no ray has do not run, and do not empty RES.
+    steps.extend((first > 0).then(clear::clear));
+    for part in context.sections(first) {
         // Without the layer in front there is nothing behind it.
         let guard = part.section.checked_sub(1).map(|layer| guards[layer as usize]);
         steps.enter(part.section, guard);
         if context.passes > 0 {
             passes(&part, steps);
+            let ends = part.has(&LAYER_BEHIND) || part.opaque;
+            if let Some(form) = part.form.filter(|_| ends && part.has(&APART)) {
+                steps.enter(part.section, guard);
+                steps.push(main_pass::partial_pass(&part, form));
+            }
         }
         steps.enter(0, guard);
-        steps.extend((part.section < context.layers).then(|| layer::layer(part.section)));
+        steps.extend((context.blends && part.section < context.layers).then(|| layer::layer(part.section)));
     }
     steps.enter(0, None);
     steps.extend(context.opaque.then(|| layer::opaque(context.layers)));
 }
 
-/// Polygons: the opaque ones once, the transparent ones layer by layer. For each layer the number of the step that counts it.
+/// Polygons: where clip geometry lets rays begin, the opaque ones once, the transparent ones layer by layer. For each layer the
+/// number of the step that counts it.
 fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
+    if context.has(&CLIP_BEGIN) && context.scene.polygons.cuts_in_front() {
+        steps.push(peel::clip(context));
+    } else if context.has(&CLIP_BEGIN) {
+        steps.push(clip_winding::clip_winding());
+        steps.push(clip_begin::clip_begin(context));
+    }
     steps.extend(context.opaque.then(|| peel::opaque(context)));
     // Each layer hangs on the one in front of it, not on opaque polygons.
     steps.enter(0, None);
@@ -109,8 +126,8 @@ pub fn unswitched(context: &Context, steps: &mut Steps) {
 /// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
 pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Context, u32, Form) -> Step) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
-    // Behind a layer many rays have nothing to do.
-    let first = if context.section > 0 { 0 } else { first };
+    // Behind a layer many rays have nothing to do, and a segment that ends at a surface may be the first.
+    let first = if context.has(&LAYER_BEFORE) || context.has(&APART) { 0 } else { first };
     if first == 0 {
         empty(context, steps);
     }

@@ -173,6 +173,8 @@ pub struct Draw {
     pub geometry: &'static Geometry,
     /// The depth all of it is drawn at, to the bit.
     pub depth: f32,
+    /// The least stored depth with which a fragment takes part, where the step is culled.
+    pub least: f32,
     /// The greatest stored depth with which a fragment takes part, where the step is culled.
     pub bound: f32,
     pub test: DepthTest,
@@ -206,6 +208,7 @@ impl Draw {
         Self {
             geometry,
             depth: 1.0,
+            least: 0.0,
             bound: 1.0,
             test: DepthTest::NONE,
             shader: Some(Arc::new(Shader::new(file, []))),

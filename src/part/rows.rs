@@ -133,6 +133,8 @@ impl From<String> for Why {
 pub enum Hook {
     /// Where it is known which part of a ray is drawn.
     Ray,
+    /// Where it is known which surface ends that part.
+    RayEnd,
     /// Where samples are taken and classified.
     Sample,
     /// Where it is decided which rays go on.
@@ -193,8 +195,10 @@ pub struct Context<'a> {
     pub form: Option<Form>,
     /// N, main passes.
     pub passes: u32,
-    /// Depth layers of transparent polygons, at the most; 0 where there are no such polygons.
+    /// Depth layers of transparent polygons and of clip geometry, at the most; 0 where there are no such polygons.
     pub layers: u32,
+    /// Whether there are transparent polygons, so that layers have colours.
+    pub blends: bool,
     /// Whether there are opaque polygons.
     pub opaque: bool,
     /// The part of each ray that is drawn: that behind so many layers.
@@ -206,14 +210,14 @@ pub struct Context<'a> {
 impl<'a> Context<'a> {
     pub fn new(scene: &'a Scene, view: &'a View, method: &'static Method, form: Option<Form>, passes: u32) -> Self {
         let polygons = &scene.polygons;
-        let layers = if polygons.transparent().is_empty() { 0 } else { scene.settings.layers.most };
-        let opaque = !polygons.opaque().is_empty();
-        Self { scene, view, method, form, passes, layers, opaque, section: 0, answers: RefCell::default() }
+        let layers = if polygons.peeled().is_empty() { 0 } else { scene.settings.layers.most };
+        let (blends, opaque) = (!polygons.transparent().is_empty(), !polygons.opaque().is_empty());
+        Self { scene, view, method, form, passes, layers, blends, opaque, section: 0, answers: RefCell::default() }
     }
 
-    /// The parts of rays that are drawn one after the other, the one in front of all layers first.
-    pub fn sections(&self) -> impl Iterator<Item = Self> {
-        (0..=self.layers).map(|section| Self {
+    /// The parts of rays that are drawn one after the other, from `first` on: the one in front of all layers is the part 0.
+    pub fn sections(&self, first: u32) -> impl Iterator<Item = Self> {
+        (first..=self.layers).map(|section| Self {
             section,
             answers: self.answers.clone(),
             scene: self.scene,
@@ -222,6 +226,7 @@ impl<'a> Context<'a> {
             form: self.form,
             passes: self.passes,
             layers: self.layers,
+            blends: self.blends,
             opaque: self.opaque,
         })
     }
@@ -234,7 +239,7 @@ impl<'a> Context<'a> {
     /// Whether the frame has a feature, else why not.
     pub fn answer(&self, feature: &Feature) -> Result<(), Why> {
         // It differs from part to part of a ray, and is soon answered.
-        if feature.at == Hook::Ray {
+        if matches!(feature.at, Hook::Ray | Hook::RayEnd) {
             return (feature.needed)(self);
         }
         if let Some(known) = self.answers.borrow().get(feature.name) {

@@ -8,9 +8,10 @@ use crate::part::access::Usage;
 use crate::part::resource::Resource;
 use crate::part::{DepthTest, Draw, Group, Step, Work};
 use crate::resource;
+use crate::twin::section::WAITING;
 
-/// Dead rays hold 1.0; sections and skipped segments stay at or below 0.5.
-const ALIVE: f32 = 0.75;
+/// Sections and skipped segments stay at or below 0.5.
+const ALIVE: f32 = WAITING;
 
 /// Counts before main pass `pass`, by a depth test that every device has.
 ///
@@ -27,6 +28,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
         Work::Draw(Draw {
             geometry: &BOX_FRONT,
             depth: ALIVE,
+            least: 0.0,
             bound: ALIVE,
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },
             shader: None,

@@ -6,6 +6,7 @@ use crate::part::access::{Access, Usage};
 use crate::part::{DepthTest, Draw};
 use crate::resource;
 use crate::scene::settings::{Cull, Mark};
+use crate::twin::section::{PARTIAL_REACH, partial_depth};
 
 /// A box drawn in the upper half of the depth range, as in the thesis' own form [Thesis §5.3].
 const UPPER_HALF: f32 = 0.75;
@@ -13,6 +14,22 @@ const UPPER_HALF: f32 = 0.75;
 /// Lets a step that only tests take part where the stored depth is at most `bound`.
 pub fn cull_by_stored(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, bound: f32) {
     draw.bound = bound;
+    only_test(draw, accesses, cull, bound, vk::CompareOp::GREATER_OR_EQUAL);
+}
+
+/// Lets a step take part only where a ray has nothing left but the segment that ends at a surface, in its part behind so many
+/// layers: the depth test is reversed [Thesis ch. 6 §7].
+pub fn cull_by_partial(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, section: u32) {
+    let depth = partial_depth(section) as f32;
+    (draw.least, draw.bound) = (depth - PARTIAL_REACH, depth + PARTIAL_REACH);
+    only_test(draw, accesses, cull, depth, vk::CompareOp::EQUAL);
+    if cull == Cull::Discard {
+        draw.specialize([("PARTIAL_DEPTH", depth.to_bits()), ("PARTIAL_REACH", PARTIAL_REACH.to_bits())]);
+    }
+}
+
+/// Tests the stored depth and leaves it: by the bounds of `draw`, by the z-test of a box drawn at `depth`, or in the shader.
+fn only_test(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, depth: f32, compare: vk::CompareOp) {
     match cull {
         // ALWAYS rather than off: with the depth test off one driver's occlusion counts ignore the bounds.
         Cull::Bounds | Cull::Auto => {
@@ -20,8 +37,8 @@ pub fn cull_by_stored(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, b
             accesses.push(Usage::DepthTest.of(resource::STORED));
         }
         Cull::Ztest => {
-            draw.depth = bound;
-            draw.test = DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false };
+            draw.depth = depth;
+            draw.test = DepthTest { compare: Some(compare), write: false, bounds: false };
             accesses.push(Usage::DepthTest.of(resource::STORED));
         }
         Cull::Discard => {

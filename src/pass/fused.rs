@@ -22,6 +22,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::VOLUME),
     ];
     accesses.extend(feature::reads(context, Hook::Ray));
+    accesses.extend(feature::reads(context, Hook::RayEnd));
     if context.has(&DISTANCES) {
         accesses.push(Usage::Sampled.of(resource::NEAREST_DISTANCE));
     }
@@ -31,6 +32,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(&BOX_FRONT, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Ray));
+    draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Sample));
     draw.define(feature::defines(context, Hook::Decide));

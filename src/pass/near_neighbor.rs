@@ -3,7 +3,8 @@
 use ash::vk;
 
 use super::{constants, cull};
-use crate::feature::{self, EARLY_ENDS};
+use crate::feature::layers::first_section;
+use crate::feature::{self, APART, EARLY_ENDS};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -23,13 +24,16 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::DIRECTION),
     ];
     accesses.extend(feature::reads(context, Hook::Ray));
+    accesses.extend(feature::reads(context, Hook::RayEnd));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
-    let anew = context.section > 0 && pass == 0;
+    let anew = context.section > first_section(context) && pass == 0;
     let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
-    let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin::near_neighbor::near_neighbor);
+    let twin = if anew { twin::near_neighbor::anew } else { twin::near_neighbor::near_neighbor };
+    let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin);
     draw.define(feature::defines(context, Hook::Ray));
+    draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Decide));
     draw.define(anew.then_some("BEGINS"));
@@ -37,6 +41,9 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize([constants::projection(context)]);
     draw.specialize(feature::constants(context, Hook::Decide));
+    if context.has(&APART) {
+        draw.specialize([("PARTIAL_AHEAD", u32::from(context.method.fused))]);
+    }
     if culled {
         cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     }

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{constants, cull};
-use crate::feature;
+use crate::feature::{self, APART, EARLY_ENDS};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -19,12 +19,17 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::FRAME),
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
-        Usage::Sampled.of(resource::ACCUMULATED),
     ];
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     accesses.extend(feature::reads(context, Hook::Ray));
+    accesses.extend(feature::reads(context, Hook::RayEnd));
     let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
     draw.define(feature::defines(context, Hook::Ray));
+    draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
+    draw.define(EARLY_ENDS.define(context));
+    draw.define(APART.define(context));
+    draw.specialize((APART.constants)(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::projection(context)]);
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);

@@ -159,7 +159,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
-        0 if scene.polygons.is_empty() || view.region.pixels() == 0 => {
+        0 if !scene.polygons.show() || view.region.pixels() == 0 => {
             (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")])
         }
         _ => (frame(&context), left_out(&context)),

@@ -1,8 +1,10 @@
 //! A plan as text, one line a step: it is read by people and held by tests.
 
+use ash::vk;
+
 use super::Plan;
 use crate::part::access::{Access, Usage};
-use crate::part::{Step, Work};
+use crate::part::{Draw, Step, Work};
 use crate::scene::texture::Within;
 
 impl Plan {
@@ -21,6 +23,11 @@ impl Plan {
     }
 }
 
+/// The least stored depth with which fragments take part.
+fn least(draw: &Draw) -> String {
+    if draw.least > 0.0 { format!("{:.6}", draw.least) } else { "0".to_owned() }
+}
+
 fn line(step: &Step) -> String {
     let names = |chosen: fn(Usage) -> bool| -> String {
         let of = |a: &&Access| chosen(a.usage) && a.usage != Usage::Vertices;
@@ -31,9 +38,13 @@ fn line(step: &Step) -> String {
         Work::Draw(draw) => {
             let mut detail = String::new();
             if draw.test.bounds {
-                detail = format!("  [bounds 0..{:.6}]", draw.bound);
+                detail = format!("  [bounds {}..{:.6}]", least(draw), draw.bound);
+            } else if draw.test.compare == Some(vk::CompareOp::EQUAL) {
+                detail = format!("  [stored = {:.6}]", draw.depth);
             } else if draw.test.compare.is_some() && !draw.test.write {
                 detail = format!("  [stored <= {:.6}]", draw.bound);
+            } else if draw.least > 0.0 {
+                detail = format!("  [discard unless {} <= stored <= {:.6}]", least(draw), draw.bound);
             } else if draw.bound < 1.0 {
                 detail = format!("  [discard unless stored <= {:.6}]", draw.bound);
             }

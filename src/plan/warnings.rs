@@ -3,6 +3,7 @@
 use super::Plan;
 use crate::projection;
 use crate::scene::Scene;
+use crate::scene::mesh::ClipMesh;
 use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Accumulate, Filter, VolumeTexture};
 use crate::scene::texture::{TextureChoice, Within};
@@ -13,6 +14,7 @@ use crate::structure::cells::any_interesting;
 pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
     warnings.extend(scene.polygons.warnings.clone());
+    warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
     warnings.extend(plan.method.on_device.then(|| cut_off(scene, plan)).flatten());
@@ -42,7 +44,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
 /// Why nothing can show, where that is certain.
 fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     let field = &scene.field;
-    if !scene.polygons.is_empty() {
+    if scene.polygons.show() {
         return None;
     }
     if plan.passes == 0 {
@@ -89,6 +91,18 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         "the picture is empty: {values}, and over the scalar range {low} to {high} the transfer function {transfer} shows \
          nothing there; try another --tf{advice}"
     ))
+}
+
+/// That a clip mesh has no inside of its own.
+fn open_clip(clip: &ClipMesh) -> Option<String> {
+    (clip.open_edges > 0).then(|| {
+        format!(
+            "the clip mesh {} is open at {}: what a ray enters without leaving it goes on without an end, and a ray that leaves \
+             more often than it enters begins inside; close it, or turn its faces one way",
+            clip.name,
+            counted(clip.open_edges, "edge", "edges")
+        )
+    })
 }
 
 /// What is worth advising has an error that is so many times less.

@@ -23,7 +23,7 @@ use std::path::Path;
 
 pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};
-pub use scene::{scene, scene_of, settings, settings_from_json};
+pub use scene::{scene, scene_of, settings, settings_from_json, settings_of};
 pub use transfer::transfer;
 
 use self::packed::{Members, Packing};

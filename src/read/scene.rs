@@ -8,8 +8,8 @@ use serde_json::Value;
 
 use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
-use crate::scene::mesh::shape;
-use crate::scene::settings::{Endian, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
+use crate::scene::mesh::{Mesh, shape};
+use crate::scene::settings::{Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
 use crate::scene::{Camera, Field, Polygons, Scene, TextureUnit, Volume, builtin};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
@@ -17,24 +17,34 @@ use crate::scene::{Camera, Field, Polygons, Scene, TextureUnit, Volume, builtin}
 /// # Errors
 /// When the file cannot be read, is not TOML, or has a wrong key or value; line and nearest known key are named.
 pub fn settings(path: &Path) -> Result<Settings> {
-    let text = super::text(path)?;
-    let mut settings: Settings = toml::from_str(&text).map_err(|e| {
+    settings_of(&path.display().to_string(), &super::text(path)?, folder_of(path))
+}
+
+/// The settings in the text of a scene file that is called `name` and stands in `folder`.
+///
+/// # Errors
+/// As [`settings`], but for reading.
+pub fn settings_of(name: &str, text: &str, folder: &Path) -> Result<Settings> {
+    let mut settings: Settings = toml::from_str(text).map_err(|e| {
         let line = e
             .span()
             .map(|span| 1 + text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count());
         let (problem, remedy) = super::keys::explain(e.message());
         let place = line.map_or(String::new(), |n| format!(", line {n}"));
-        Error::input(format!("{}{place}", path.display()), problem, remedy)
+        Error::input(format!("{name}{place}"), problem, remedy)
     })?;
-    resolve(&mut settings, path);
+    resolve(&mut settings, folder);
     Ok(settings)
 }
 
-/// Makes paths that are relative to the file the settings stand in relative to the working folder.
-fn resolve(settings: &mut Settings, file: &Path) {
-    let base = file.parent().unwrap_or(Path::new(""));
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
+/// Makes paths that are relative to the folder the settings stand in relative to the working folder.
+fn resolve(settings: &mut Settings, folder: &Path) {
     for path in settings.paths() {
-        *path = base.join(&*path);
+        *path = folder.join(&*path);
     }
 }
 
@@ -72,7 +82,7 @@ pub fn settings_from_json(path: &Path) -> Result<Settings> {
         let (problem, remedy) = super::keys::explain(&e.to_string());
         Error::input(format!("{}: settings", path.display()), problem, remedy)
     })?;
-    resolve(&mut settings, &path);
+    resolve(&mut settings, folder_of(&path));
     Ok(settings)
 }
 
@@ -113,14 +123,21 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.
 fn polygons(settings: &Settings, turn: DQuat) -> Result<Polygons> {
     let mut polygons = Polygons::default();
-    for settings in &settings.meshes {
-        let mesh = match (&settings.path, &settings.builtin) {
+    let placed = |placed: Placed| -> Result<(Mesh, DMat4)> {
+        let mesh = match (placed.path, placed.builtin) {
             (Some(path), _) => super::mesh(path)?,
-            (None, Some(name)) => shape(name)?,
-            (None, None) => continue,
+            (None, name) => shape(name.as_deref().unwrap_or_default())?,
         };
-        let place = DMat4::from_quat(turn.inverse()) * settings.place(mesh.bounds());
+        let place = DMat4::from_quat(turn.inverse()) * placed.place(mesh.bounds());
+        Ok((mesh, place))
+    };
+    for settings in &settings.meshes {
+        let (mesh, place) = placed(settings.placed())?;
         polygons.add(&mesh, place, settings.material())?;
+    }
+    for settings in &settings.clips {
+        let (mesh, place) = placed(settings.placed())?;
+        polygons.add_clip(&mesh, place, settings.keep)?;
     }
     Ok(polygons.ready())
 }

@@ -7,6 +7,7 @@ use super::table::{Cell, Column, Table};
 use crate::measure::record::{Clock, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
+use crate::scene::settings::PartialSegments;
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
 pub const BASELINE: &str = "rc-block";
@@ -33,12 +34,13 @@ pub fn groups(runs: &[Run]) -> Vec<RunGroup<'_>> {
     groups
 }
 
-/// Same scene, device and settings; the method may be another.
-fn comparable(a: &Run, b: &Run) -> bool {
+/// Whether two runs have the same scene, device and settings; the method may be another.
+pub fn comparable(a: &Run, b: &Run) -> bool {
     let (s, t) = (&a.settings, &b.settings);
     (&a.scene, &a.view, &a.device, &a.driver) == (&b.scene, &b.view, &b.device, &b.driver)
-        && (&s.volume, &s.transfer, &s.camera, &s.image, &s.sampling)
-            == (&t.volume, &t.transfer, &t.camera, &t.image, &t.sampling)
+        && (&s.volume, &s.transfer, &s.camera, &s.image, &s.projection, &s.sampling)
+            == (&t.volume, &t.transfer, &t.camera, &t.image, &t.projection, &t.sampling)
+        && (&s.meshes, &s.clips, s.layers.most) == (&t.meshes, &t.clips, t.layers.most)
 }
 
 /// The method with the switches that change its counts.
@@ -55,6 +57,11 @@ pub fn label(run: &Run) -> String {
     }
     if run.marks_sections() && run.settings.method.lookups != 1 {
         let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
+    }
+    // Methods that cull nothing draw nothing apart.
+    let apart = run.settings.layers.partial == PartialSegments::Apart && run.cull.is_some();
+    if apart && !run.fragments.per_layer.is_empty() {
+        label.push_str(" (partial segments apart)");
     }
     label
 }

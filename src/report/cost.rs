@@ -1,6 +1,6 @@
 //! How what a method saves depends on the cost of a sample: the same scene with ever more extra fetches.
 
-use super::comparison::{RunGroup, label};
+use super::comparison::{RunGroup, comparable, label};
 use super::table::{Column, Table};
 use crate::measure::record::Run;
 use crate::measure::saving::AGAINST;
@@ -26,24 +26,27 @@ pub fn extra_fetches(group: &RunGroup) -> u32 {
     group.first().settings.sampling.extra_fetches
 }
 
-/// What a run has in common with those that differ in cost and method only.
-fn apart_from_cost(run: &Run) -> impl PartialEq + use<> {
-    let mut run = run.clone();
-    run.settings.sampling.extra_fetches = 0;
-    (run.scene, run.view, run.device, run.driver, run.settings.sampling, run.settings.image)
+/// Whether two runs differ in cost and method only.
+fn alike_but_for_cost(a: &Run, b: &Run) -> bool {
+    let free = |run: &Run| {
+        let mut run = run.clone();
+        run.settings.sampling.extra_fetches = 0;
+        run
+    };
+    comparable(&free(a), &free(b))
 }
 
 /// The fewest extra fetches that the scene of `group` was run with.
 pub fn least_cost(group: &RunGroup, groups: &[RunGroup]) -> u32 {
-    let same = groups.iter().filter(|other| apart_from_cost(other.first()) == apart_from_cost(group.first()));
+    let same = groups.iter().filter(|other| alike_but_for_cost(other.first(), group.first()));
     same.map(extra_fetches).min().unwrap_or_default()
 }
 
 impl Sweep {
     /// Of the scene of `base`, among all groups; none where it was run with one cost only.
     pub fn of(base: &RunGroup, groups: &[RunGroup]) -> Option<Self> {
-        let rule = apart_from_cost(base.first());
-        let mut same: Vec<&RunGroup> = groups.iter().filter(|group| apart_from_cost(group.first()) == rule).collect();
+        let alike = |group: &&RunGroup| alike_but_for_cost(group.first(), base.first());
+        let mut same: Vec<&RunGroup> = groups.iter().filter(alike).collect();
         same.sort_by_key(|group| extra_fetches(group));
         if same.len() < 2 {
             return None;

@@ -29,11 +29,11 @@ static SCREEN_CORNERS_INFO: ResourceInfo = of_frame(
     |_| Cow::Borrowed(bytemuck::bytes_of(&WHOLE)),
 );
 
-/// Corners of all polygons.
+/// Corners of all polygons of the scene.
 pub const POLYGON_CORNERS: Resource = Resource::new(&POLYGON_CORNERS_INFO);
 static POLYGON_CORNERS_INFO: ResourceInfo = of_frame(
     "polygon_corners",
-    "corners of triangles in volume space; the transparent ones, then the opaque ones",
+    "corners of triangles in volume space; the transparent ones, then those of clip geometry, then the opaque ones",
     ResourceKind::Vertices(|facts, _| (size_of::<[[f32; 3]; 3]>() * facts.scene.polygons.triangles.len()) as u64),
     |facts| {
         let corners: Vec<[[f32; 3]; 3]> = facts.scene.polygons.triangles.iter().map(|one| one.corners).collect();
@@ -58,7 +58,7 @@ static TRIANGLES_INFO: ResourceInfo = of_frame(
 pub const MATERIALS: Resource = Resource::new(&MATERIALS_INFO);
 static MATERIALS_INFO: ResourceInfo = of_frame(
     "materials",
-    "linear colour and opacity of the fronts and of the backs of a mesh",
+    "linear colour and opacity of the fronts and of the backs of a mesh, whether backs show, which clip mesh it is",
     ResourceKind::Storage(|facts, _| (size_of::<shared::Material>() * facts.scene.polygons.materials.len()) as u64),
     |facts| {
         let materials: Vec<_> = facts.scene.polygons.materials.iter().map(shared::Material::new).collect();
@@ -79,17 +79,20 @@ static PLACEMENT_INFO: ResourceInfo = of_frame(
 const fn target(name: &'static str, holds: &'static str, format: vk::Format) -> ResourceInfo {
     let kind = match format {
         vk::Format::D32_SFLOAT => ResourceKind::Target(|_| vk::Format::D32_SFLOAT),
+        vk::Format::R16G16B16A16_SFLOAT => ResourceKind::Target(|_| vk::Format::R16G16B16A16_SFLOAT),
         _ => ResourceKind::Target(|_| vk::Format::R32G32B32A32_SFLOAT),
     };
     ResourceInfo { name, holds, kind, life: Life::Frame, origin: Origin::Drawn }
 }
 
-/// The surfaces that rays meet, by the number of the layer; behind the transparent ones those of opaque polygons.
+/// The surfaces that rays meet, by the number of the layer; behind the layers those of opaque polygons, and behind these where
+/// clip geometry lets the volume begin.
 pub const LAYER: Resource = Resource::new(&LAYER_INFO);
 static LAYER_INFO: ResourceInfo = target(
     "layer",
     "of the surface: near over depth (0: none), one more than the triangle's number, distance from where the ray enters, \
-     volume space",
+     volume space; whether clip geometry keeps what is behind the surface (not below 0), with how often more the ray has entered \
+     each clip mesh that keeps what is inside or outside than left it",
     vk::Format::R32G32B32A32_SFLOAT,
 );
 
@@ -102,3 +105,9 @@ static LAYER_COLOR_INFO: ResourceInfo =
 pub const PEEL_DEPTH: Resource = Resource::new(&PEEL_DEPTH_INFO);
 static PEEL_DEPTH_INFO: ResourceInfo =
     target("peel_depth", "near over depth of the surface, 0 where there is none", vk::Format::D32_SFLOAT);
+
+/// By how much more often rays enter each clip mesh than they leave it. Every device blends into 16 bits, which hold whole numbers
+/// to 2048.
+pub const CLIP_WINDING: Resource = Resource::new(&CLIP_WINDING_INFO);
+static CLIP_WINDING_INFO: ResourceInfo =
+    target("clip_winding", "fronts less backs of each clip mesh that the ray meets", vk::Format::R16G16B16A16_SFLOAT);

@@ -11,7 +11,9 @@ mod structure;
 pub mod texels;
 
 pub use frame::{ACCUMULATED, BOX, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
-pub use layers::{LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES};
+pub use layers::{
+    CLIP_WINDING, LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES,
+};
 pub use look::{AXIS, GREY_TRANSFER, HOLES, PREINTEGRATED, TRANSFER, VOLUME};
 pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
@@ -21,7 +23,7 @@ pub use structure::{
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 36] = [
+pub const RESOURCES: [Resource; 37] = [
     BOX,
     FRAME,
     ENTRY,
@@ -38,6 +40,7 @@ pub const RESOURCES: [Resource; 36] = [
     LAYER,
     LAYER_COLOR,
     PEEL_DEPTH,
+    CLIP_WINDING,
     VOLUME,
     HOLES,
     TRANSFER,

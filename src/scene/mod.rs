@@ -12,6 +12,7 @@ pub mod method;
 pub mod projection;
 pub mod range;
 pub mod region;
+pub mod scenes;
 pub mod settings;
 pub mod texture;
 pub mod transfer;

@@ -104,10 +104,7 @@ fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> R
 
 /// The pixels that polygons may cover: those of the box around them.
 fn covered_by_polygons(scene: &Scene, rays: &ViewRays, size: [u32; 2]) -> Region {
-    if scene.polygons.is_empty() {
-        return Region::default();
-    }
-    let bounds = scene.polygons.bounds();
+    let Some(bounds) = scene.polygons.bounds() else { return Region::default() };
     let corner = |i: usize| {
         let pick = |axis: usize| if i >> axis & 1 == 0 { bounds.least[axis] } else { bounds.greatest[axis] };
         DVec3::new(pick(0), pick(1), pick(2)) - rays.eye

@@ -7,7 +7,7 @@ use super::{double_float, double_floats};
 use crate::math::ray::ViewRays;
 use crate::scene::mesh;
 
-/// `Triangle` of `glsl/peel.frag`.
+/// `Triangle` of `glsl/shared/polygon.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Triangle {
@@ -26,7 +26,7 @@ impl Triangle {
     }
 }
 
-/// `Material` of `glsl/peel.frag`.
+/// `Material` of `glsl/shared/polygon.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Material {
@@ -34,13 +34,20 @@ pub struct Material {
     pub colors: [[f32; 4]; 2],
     /// Whether backs show.
     pub two_sided: u32,
-    pub padding: [u32; 3],
+    /// One more than the number of the clip mesh; 0 where it is none.
+    pub clip: u32,
+    pub padding: [u32; 2],
 }
 
 impl Material {
     pub fn new(material: &mesh::Material) -> Self {
         let side = |[r, g, b]: [f64; 3]| [r, g, b, material.opacity].map(|c| c as f32);
-        Self { colors: material.colors.map(side), two_sided: material.two_sided.into(), padding: [0; 3] }
+        Self {
+            colors: material.colors.map(side),
+            two_sided: material.two_sided.into(),
+            clip: material.clip.map_or(0, |number| u32::from(number) + 1),
+            padding: [0; 2],
+        }
     }
 }
 

@@ -39,6 +39,7 @@ use crate::math::interpolate::nearest;
 use crate::math::opacity::composite;
 use crate::math::ray::{ViewRays, box_interval};
 use crate::projection::{self, COMPOSITE, Projection};
+use crate::scene::mesh::DividedRay;
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Polygons, Scene, TransferFunction};
 
@@ -147,7 +148,7 @@ impl<'a> ExactIntegrator<'a> {
                     match self.polygons {
                         None => whole.map_or([0.0; 4], |(enter, leave)| between(enter, leave)),
                         Some((polygons, most)) => {
-                            cut_by(&polygons.surfaces(rays, [column, row], most), whole.unwrap_or_default(), between)
+                            divided_by(&polygons.divided(rays, [column, row], most), whole.unwrap_or_default(), between)
                         }
                     }
                 })
@@ -229,22 +230,21 @@ impl<'a> ExactIntegrator<'a> {
     }
 }
 
-/// The pixel of a ray whose volume lies between two depths, with surfaces at some: the volume between them by `between`,
-/// and their colours, front to back.
-fn cut_by(
-    surfaces: &[(f64, [f64; 4])],
-    (enter, leave): (f64, f64),
-    between: impl Fn(f64, f64) -> [f64; 4],
-) -> [f64; 4] {
+/// A ray that enters and leaves the volume's box at these depths, with its surfaces: `between` gives what lies between two
+/// depths, premultiplied.
+fn divided_by(ray: &DividedRay, (enter, leave): (f64, f64), between: impl Fn(f64, f64) -> [f64; 4]) -> [f64; 4] {
     let mut pixel = [0.0; 4];
-    let mut from = enter;
-    for (depth, color) in surfaces {
-        let to = depth.clamp(from, leave.max(from));
-        pixel = composite(composite(pixel, between(from, to)), *color);
-        from = to;
+    let mut from = ray.begin.map_or(enter, |begin| begin.clamp(enter, leave.max(enter)));
+    let mut kept = ray.kept;
+    for surface in &ray.surfaces {
+        let to = surface.depth.clamp(from, leave.max(from));
+        if kept {
+            pixel = composite(pixel, between(from, to));
+        }
+        pixel = composite(pixel, surface.color);
+        (from, kept) = (to, surface.kept);
     }
-    let ends = surfaces.last().is_some_and(|(_, color)| color[3] >= 1.0);
-    if ends { pixel } else { composite(pixel, between(from, leave)) }
+    if kept { composite(pixel, between(from, leave)) } else { pixel }
 }
 
 impl CellPart {

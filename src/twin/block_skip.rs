@@ -1,5 +1,6 @@
 //! Twin of `glsl/block_skip.frag`: stopping criterion and empty blocks [KW03 §2.3].
 
+use super::section::partial_depth;
 use super::{DEAD, Effect, Pixel, SKIPPED, Twin};
 use crate::structure::blocks::Blocks;
 
@@ -11,6 +12,12 @@ pub fn block_skip(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let blocks = twin.blocks.expect("block skipping is planned with blocks");
     let (first, end) = twin.segment(pixel, pass);
     let saturated = twin.saturated(pixel);
+    if let Some(last) = twin.only_partial(pixel, pass).filter(|_| !saturated) {
+        let (first, end) = twin.segment(pixel, last);
+        let shows = (first..end).any(|i| visible(twin, blocks, pixel, i));
+        pixel.stored = if shows { partial_depth(pixel.section) } else { DEAD };
+        return Effect::Silent;
+    }
     pixel.stored = if !saturated && twin.begins_later(pixel, pass) {
         SKIPPED
     } else if first >= end || saturated {

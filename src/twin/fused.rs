@@ -19,14 +19,16 @@ pub fn blend_rounding(accumulate: Accumulate) -> f32 {
 pub fn fused(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let mut next = if twin.saturated(pixel) { twin.passes } else { twin.next_section(pixel, pass) };
     let mut effect = Effect::Silent;
+    let mut goes_on = true;
     if next == pass {
         let (segment, found) = twin.segment_color(pixel, pass);
         effect = found;
         pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
         let certain = f64::from(blend_rounding(twin.scene.settings.image.accumulate));
         let dead = twin.saturated_by(pixel, certain);
+        goes_on = !twin.saturated_by(pixel, -certain);
         next = if dead { twin.passes } else { twin.next_section(pixel, pass + 1) };
     }
-    pixel.stored = twin.decision_depth(next);
+    pixel.stored = twin.decision_depth(pixel, next, goes_on);
     effect
 }

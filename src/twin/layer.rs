@@ -2,7 +2,7 @@
 
 use super::{Effect, Pixel, Surface, Twin};
 use crate::math::blend::Blend;
-use crate::scene::settings::Last;
+use crate::scene::settings::{Last, PartialSegments};
 
 /// Distances of surfaces are good to some 2^-23 of the way to them: the length of the way from the eye is rounded, and that from
 /// the face of the box is counted in steps.
@@ -26,9 +26,14 @@ impl Twin<'_> {
     /// Where the part of the ray that is drawn begins and ends, in steps; nothing is between them where the ray has no such part.
     pub fn part(&self, pixel: &Pixel) -> [f64; 2] {
         let steps = self.steps(pixel);
-        let begin = match pixel.section.checked_sub(1) {
-            None => 0.0,
-            Some(layer) => pixel.layers.get(layer as usize).map_or(steps, |surface| surface.steps.max(0.0)),
+        let before = match pixel.section.checked_sub(1) {
+            None => pixel.begin.as_ref(),
+            Some(layer) => pixel.layers.get(layer as usize),
+        };
+        let begin = match before {
+            Some(surface) if surface.kept => surface.steps.max(0.0),
+            None if pixel.section == 0 && !self.scene.polygons.cuts_in_front() => 0.0,
+            _ => steps,
         };
         let behind: Option<&Surface> = pixel.layers.get(pixel.section as usize).or(pixel.opaque.as_ref());
         [begin, behind.map_or(steps, |surface| surface.steps.min(steps))]
@@ -53,17 +58,22 @@ impl Twin<'_> {
     pub fn enter(&self, pixel: &mut Pixel, section: u32) {
         let known = pixel.section == section && section > 0;
         pixel.section = section;
-        if known || pixel.layers.is_empty() && pixel.opaque.is_none() {
+        if known || pixel.layers.is_empty() && pixel.opaque.is_none() && pixel.begin.is_none() {
             return;
         }
         let (steps, offset) = (self.steps(pixel), self.scene.settings.sampling.offset.steps());
-        let reach = SURFACE_ROUNDING / self.step_length();
+        let reach = SURFACE_ROUNDING / self.step_length() * (1.0 + pixel.length);
+        // Where segments that end at a surface are drawn apart, it matters whether it is that or the face of the box.
+        if self.scene.settings.layers.partial == PartialSegments::Apart {
+            let surfaces = pixel.layers.iter().chain(&pixel.opaque);
+            pixel.undecided |= surfaces.into_iter().any(|surface| (surface.steps - steps).abs() < reach);
+        }
         for cut in self.part(pixel).into_iter().filter(|cut| *cut > 0.0 && *cut < steps) {
             let place = match self.scene.settings.sampling.last {
                 Last::Partial => cut,
                 Last::Full => cut - offset,
             };
-            pixel.undecided |= (place - place.round()).abs() < reach * (1.0 + pixel.length);
+            pixel.undecided |= (place - place.round()).abs() < reach;
         }
     }
 }

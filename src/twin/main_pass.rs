@@ -8,3 +8,8 @@ pub fn main_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
     effect
 }
+
+/// Joins the segment that ends at a surface with what the pixel has already.
+pub fn partial_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    twin.only_partial(pixel, pass).map_or(Effect::Silent, |last| main_pass(twin, pixel, last))
+}

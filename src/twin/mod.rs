@@ -1,6 +1,8 @@
 //! The f64 reference: a twin of every pass and of what passes share, under the same stem as in `glsl`.
 
 pub mod block_skip;
+pub mod clip_begin;
+pub mod clip_winding;
 pub mod direction;
 pub mod entry;
 pub mod fused;
@@ -19,6 +21,7 @@ use glam::DVec3;
 use crate::math::ray::ViewRays;
 use crate::projection::{Levels, Projection};
 use crate::scene::Scene;
+use crate::scene::mesh::MOST_CLIPS;
 use crate::structure::blocks::Blocks;
 use crate::structure::grid::DistanceField;
 use crate::truth::preintegrated::PreintegratedTable;
@@ -41,6 +44,8 @@ pub struct Twin<'a> {
     /// Of pre-integrated classification.
     pub table: Option<&'a PreintegratedTable>,
     pub projection: &'static Projection,
+    /// Whether main passes mark where rays go on.
+    pub fused: bool,
     /// What its values are held against, as x.
     pub levels: Levels,
 }
@@ -52,6 +57,8 @@ pub struct Surface {
     pub steps: f64,
     /// Lit, premultiplied RGBA.
     pub color: [f64; 4],
+    /// Whether clip geometry keeps the volume behind it.
+    pub kept: bool,
 }
 
 /// One pixel of every image of the frame.
@@ -68,6 +75,10 @@ pub struct Pixel {
     pub accumulated: [f64; 4],
     /// The depth buffer.
     pub stored: f64,
+    /// Fronts less backs of each clip mesh that the ray meets.
+    pub entered: [i32; MOST_CLIPS],
+    /// Where clip geometry lets the volume begin: a surface behind all that is hidden, or the begin of the ray.
+    pub begin: Option<Surface>,
     /// Surfaces of the layers that were peeled.
     pub layers: Vec<Surface>,
     /// The nearest opaque surface.

@@ -1,7 +1,7 @@
 //! Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next, as in `glsl/shared/near_neighbor.glsl`,
 //! and the twin of `glsl/near_neighbor.frag`.
 
-use super::section::{free_samples, section_depth};
+use super::section::{free_samples, partial_depth, section_depth};
 use super::{DEAD, Effect, Pixel, Twin};
 use crate::structure::grid::{FAR, octant_of};
 
@@ -56,19 +56,25 @@ impl Twin<'_> {
         })
     }
 
-    /// The depth that says so.
-    pub fn decision_depth(&self, next: u32) -> f64 {
-        if next < self.passes { section_depth(next, self.passes) } else { DEAD }
+    /// The depth that says so. Where it is that of a segment that ends at a surface and is drawn apart, it is so `ahead` of it too.
+    pub fn decision_depth(&self, pixel: &Pixel, next: u32, ahead: bool) -> f64 {
+        match () {
+            () if next >= self.passes => DEAD,
+            () if ahead && self.only_partial(pixel, next).is_some() => partial_depth(pixel.section),
+            () => section_depth(next, self.passes),
+        }
     }
 }
 
 /// Marks the section in which the ray next has work, or death.
 pub fn near_neighbor(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
-    // Behind a layer that the ray does not have it keeps its mark.
-    if pass == 0 && pixel.section as usize > pixel.layers.len() {
-        return Effect::Discarded;
-    }
     let next = if twin.saturated(pixel) { twin.passes } else { twin.next_section(pixel, pass) };
-    pixel.stored = twin.decision_depth(next);
+    pixel.stored = twin.decision_depth(pixel, next, twin.fused || next == pass);
     Effect::Silent
+}
+
+/// Marks rays before the first pass behind a layer: one that has no such part keeps its mark.
+pub fn anew(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let before = pixel.section.checked_sub(1).and_then(|layer| pixel.layers.get(layer as usize));
+    if before.is_some_and(|surface| surface.kept) { near_neighbor(twin, pixel, pass) } else { Effect::Discarded }
 }

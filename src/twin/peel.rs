@@ -2,36 +2,44 @@
 
 use super::{Effect, Pixel, Surface, Twin};
 use crate::math::ray::box_interval;
-use crate::scene::mesh::Crossing;
+use crate::scene::mesh::{Cut, Cuts};
 
 /// The nearest opaque surface.
 pub fn opaque(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
-    let crossings = twin.crossings(pixel);
-    pixel.opaque = twin.scene.polygons.seen(&crossings).1.map(|one| twin.surface(pixel, one));
+    pixel.opaque = twin.cuts(pixel).opaque.map(|crossing| twin.surface(pixel, &Cut { crossing, kept: false }));
     if pixel.opaque.is_some() { Effect::Silent } else { Effect::Discarded }
 }
 
-/// The transparent surface behind `layer` others, in front of the opaque one.
+/// The nearest surface of clip geometry; behind it, or else nowhere, the volume is drawn.
+pub fn clip(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    pixel.begin = twin.cuts(pixel).begin.map(|crossing| twin.surface(pixel, &Cut { crossing, kept: true }));
+    if pixel.begin.is_some() { Effect::Silent } else { Effect::Discarded }
+}
+
+/// The surface behind `layer` others that cuts the ray, in front of the opaque one.
 pub fn transparent(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
-    let crossings = twin.crossings(pixel);
-    let Some(crossing) = twin.scene.polygons.seen(&crossings).0.get(layer as usize) else { return Effect::Discarded };
-    let surface = twin.surface(pixel, crossing);
+    let cuts = twin.cuts(pixel);
+    let Some(cut) = cuts.surfaces.get(layer as usize) else { return Effect::Discarded };
+    let surface = twin.surface(pixel, cut);
     pixel.layers.push(surface);
     Effect::Silent
 }
 
 impl Twin<'_> {
-    fn crossings(&self, pixel: &Pixel) -> Vec<Crossing> {
-        self.scene.polygons.crossings(&self.rays, [pixel.column, pixel.row], 0.0).list
+    /// The surfaces that cut the ray.
+    pub(super) fn cuts(&self, pixel: &Pixel) -> Cuts {
+        let polygons = &self.scene.polygons;
+        polygons.cuts(&polygons.crossings(&self.rays, [pixel.column, pixel.row], 0.0).list)
     }
 
-    fn surface(&self, pixel: &Pixel, crossing: &Crossing) -> Surface {
+    fn surface(&self, pixel: &Pixel, cut: &Cut) -> Surface {
         let direction = self.rays.direction(pixel.column, pixel.row);
         let half = 0.5 * self.scene.field.extent();
         let enter = box_interval(self.rays.eye, direction, half, self.rays.near).map_or(0.0, |(enter, _)| enter);
         Surface {
-            steps: (crossing.depth - enter) * direction.length() / self.step_length(),
-            color: self.scene.polygons.lit(direction, crossing),
+            steps: (cut.crossing.depth - enter) * direction.length() / self.step_length(),
+            color: self.scene.polygons.lit(direction, &cut.crossing),
+            kept: cut.kept,
         }
     }
 }

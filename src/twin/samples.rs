@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::{Pixel, Twin};
 use crate::projection::Ends;
+use crate::scene::settings::PartialSegments;
 
 /// The GPU's count of samples comes from the stored length and an f32 step. Within this of a whole number (relative to
 /// the length in steps: two roundings and that of the offset, of 2^-24 each) the two may differ by one.
@@ -110,6 +111,16 @@ impl Twin<'_> {
     pub fn begins_later(&self, pixel: &Pixel, pass: u32) -> bool {
         let (first, end) = self.samples_of_part(pixel);
         (pass + 1) * self.scene.settings.sampling.samples_per_pass <= first && first < end
+    }
+
+    /// The main pass of the last segment of the part of the ray that is drawn, where a surface ends it; `pass` where that is at or
+    /// before it, in frames in which such segments are drawn apart.
+    pub fn only_partial(&self, pixel: &Pixel, pass: u32) -> Option<u32> {
+        let sampling = &self.scene.settings.sampling;
+        let (first, end) = self.samples_of_part(pixel);
+        let last = end.checked_sub(1)? / sampling.samples_per_pass;
+        let apart = self.scene.settings.layers.partial == PartialSegments::Apart;
+        (apart && first < end && self.part(pixel)[1] < self.steps(pixel) && last <= pass).then_some(last)
     }
 
     /// Whether the ray needs no further samples; undecided where rounding may decide.

@@ -12,6 +12,23 @@ pub fn section_end(section: u32, passes: u32) -> f64 {
     (f64::from(section) + 1.0) / (2.0 * f64::from(passes))
 }
 
+/// Depth above which no ray takes part in main passes: it is dead, or waits for the pass of segments that end at a surface.
+pub const WAITING: f32 = 0.75;
+
+/// Depth of a ray of which nothing is left but the segment that ends at a surface, in its part behind so many layers: below that
+/// of a dead one, above those of all others [Thesis ch. 6 §7]. A ray that has no part behind a layer keeps its mark, which
+/// must not be that of another part. A normalised format of 16 or 24 bits has no code halfway to the next at any of them, so that
+/// it keeps one code whichever way it rounds.
+pub fn partial_depth(section: u32) -> f64 {
+    f64::from(WAITING) + f64::from(section + 1) / PARTIAL_STEPS
+}
+
+/// The depths of [`partial_depth`] are one part of so many apart.
+const PARTIAL_STEPS: f64 = 512.0;
+
+/// Half of what lies between two depths of [`partial_depth`].
+pub const PARTIAL_REACH: f32 = 0.5 / PARTIAL_STEPS as f32;
+
 /// Sections that a depth buffer of that format tells apart, whatever rounds to its codes. A mark lies at least a quarter
 /// of a section from the next mark and from a bound (`fragdepth-any`), and its own rounding, that of the bound or of the
 /// other mark and the device's conversion may each take half a code.

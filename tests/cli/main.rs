@@ -4,6 +4,7 @@
 mod input;
 mod options;
 mod output;
+mod polygons;
 mod program;
 mod report;
 mod volume;

@@ -62,6 +62,7 @@ fn names_the_nearest_of_an_unknown_word() {
         ("bench --method rc,rc-blok -o a", "'rc-block'"),
         ("render --tf rmap -o a.png", "`ramp`"),
         ("render builtin:shell -o a.png", "`shells`"),
+        ("render builtin:engine-geometry:64 -o a.png", "of the scenes, which take no size: engine-geometry"),
     ] {
         place.refused(arguments, 2, &[near]);
     }
@@ -71,6 +72,9 @@ fn names_the_nearest_of_an_unknown_word() {
 fn help_tells_exit_codes_and_examples() {
     let place = driverless();
     let help = place.done("--help").text();
+    for built_in in ["  shells ", "  engine ", "  engine-geometry "] {
+        assert!(help.contains(built_in), "{built_in}: {help}");
+    }
     for code in ["  0  ", "  2  ", "  3  ", "  4  ", "  5  ", "  6  ", "NO_COLOR"] {
         assert!(help.contains(code), "{code}: {help}");
     }

@@ -69,6 +69,14 @@ fn a_full_disk_is_an_error_and_a_reader_that_left_is_none() {
 }
 
 #[test]
+fn a_built_in_scene_is_named_with_its_meshes() {
+    let place = driverless();
+    let text = place.done("plan builtin:engine-geometry --viewport 20x10 --method rc-ert --json plan.json").text();
+    assert!(text.contains("engine:128 with 2 meshes, points"), "{text}");
+    assert_eq!(place.json("plan.json")["scene"], "engine:128 with 2 meshes, points");
+}
+
+#[test]
 fn plan_needs_no_device_and_its_json_says_the_steps() {
     let place = driverless();
     let text = place.done("plan builtin:shells:16 --viewport 20x10 --json plan.json").text();

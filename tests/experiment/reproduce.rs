@@ -1,10 +1,14 @@
 //! The papers' numbers against each other, and the comparison of synthetic counts with them.
 
 use depthleap::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, PaperRow, VIEWPORT};
-use depthleap::experiment::reproduce::{FORMAT, ReproducedSet, Reproduction, Variant, csv, lines, page, text, verdict};
-use depthleap::measure::record::{CountsRecord, Ideal, Run};
+use depthleap::experiment::reproduce::{
+    FORMAT, FigureRecord, ReproducedSet, Reproduction, Variant, csv, embedded_lines, embedded_verdict, lines, page,
+    text, verdict,
+};
+use depthleap::measure::record::{CountsRecord, Ideal, LayerRecord, Run};
 use depthleap::provenance::Provenance;
 use depthleap::report::html::Png;
+use depthleap::scene::settings::{MeshSettings, PartialSegments};
 
 use crate::runs::run;
 
@@ -34,6 +38,31 @@ fn block_skipping_runs_every_fragment_of_the_face_in_every_pass() {
     for set in DATA_SETS.iter().filter(|set| !set.rows.is_empty()) {
         let face = u64::from(set.face) * u64::from(set.face);
         assert_eq!(published(set, PaperRow::Block)[1], face * u64::from(set.intermediate_passes), "{}", set.name);
+    }
+}
+
+#[test]
+fn parts_sum_up_to_what_the_thesis_counted_with_geometry() {
+    for (set, geometry) in DATA_SETS.iter().filter_map(|set| Some((set, set.geometry?))) {
+        let theirs: Vec<_> = geometry.rows.iter().filter_map(|row| row.theirs).collect();
+        for one in theirs.iter().filter(|one| !one.parts.is_empty()) {
+            assert_eq!(one.parts.len(), geometry.parts as usize, "{}", set.name);
+            for kind in 0..2 {
+                assert_eq!(one.parts.iter().map(|part| part[kind]).sum::<u64>(), one.with[kind], "{}", set.name);
+            }
+        }
+        let Some(early_z) = theirs.first() else { continue };
+        let all = u64::from(set.face).pow(2) * u64::from(set.intermediate_passes);
+        assert_eq!([early_z.without[1], early_z.with[1]], [all, all * u64::from(geometry.parts)], "{}", set.name);
+    }
+}
+
+#[test]
+fn the_geometry_of_the_tables_reads_and_has_its_volume() {
+    for (set, geometry) in DATA_SETS.iter().filter_map(|set| Some((set, set.geometry?))) {
+        let scene = depthleap::read::settings_of(set.name, geometry.scene.text, std::path::Path::new("")).unwrap();
+        assert!(scene.meshes.iter().any(|mesh| mesh.opacity < 1.0), "{}: nothing is peeled", set.name);
+        assert_eq!(scene.volume.path.as_deref(), set.file.map(std::path::Path::new));
     }
 }
 
@@ -73,6 +102,121 @@ fn variant(choice: &str, omni: u64) -> Variant {
     Variant { choice: choice.to_owned(), value: "<1>".to_owned(), runs }
 }
 
+/// With polygons, the parts of their rays having these fragments.
+fn embedded(method: &str, main: [u64; 3], intermediate: [u64; 3]) -> Run {
+    let mut run = counted(method, false, main.iter().sum(), intermediate.iter().sum());
+    run.settings.meshes = vec![MeshSettings::default()];
+    let parts = main.iter().zip(intermediate);
+    run.fragments.per_layer =
+        parts.map(|(main, intermediate)| LayerRecord { pixels: Some(1), main: *main, intermediate }).collect();
+    run
+}
+
+/// With segments that end at a surface drawn apart.
+fn apart(mut run: Run) -> Run {
+    run.settings.layers.partial = PartialSegments::Apart;
+    run
+}
+
+/// What is kept of a set with geometry.
+fn counted_with_geometry(set: &DataSet) -> ReproducedSet {
+    let runs = vec![
+        counted("rc-block", false, 1000, 2000),
+        counted("nn-omni", false, 500, 400),
+        embedded("rc-block", [800, 100, 80], [2000, 2000, 2000]),
+        embedded("nn-omni", [400, 50, 0], [390, 40, 10]),
+        apart(embedded("nn-omni", [400, 50, 0], [350, 35, 5])),
+    ];
+    ReproducedSet {
+        name: set.name.to_owned(),
+        source: set.source.to_owned(),
+        file: Some("foot_cadaver.nrrd".to_owned()),
+        absent: None,
+        picture: None,
+        variants: vec![Variant { choice: "main".to_owned(), value: "as it is".to_owned(), runs }],
+    }
+}
+
+/// With the foot of chapter 6 counted, and a figure drawn beside one that is absent.
+fn found_with_geometry() -> Reproduction {
+    let mut found = found();
+    let place = DATA_SETS.iter().position(|set| set.name == "Foot with geometry").unwrap();
+    found.columns[place] = counted_with_geometry(&DATA_SETS[place]);
+    let figure = |about: &str, absent: Option<&str>| FigureRecord {
+        scene: "engine-geometry".to_owned(),
+        about: about.to_owned(),
+        source: "Thesis ch. 6, Figure 3".to_owned(),
+        file: None,
+        absent: absent.map(str::to_owned),
+        picture: absent.is_none().then(|| "pictures/figure.png".to_owned()),
+        run: None,
+    };
+    found.figures = vec![figure("a sphere & an arrow", None), figure("a foot", Some("foot.nrrd is not there"))];
+    found
+}
+
+#[test]
+fn lines_with_geometry_have_every_layer_below_the_thesis_own() {
+    let set = set("Foot with geometry");
+    let (geometry, column) = (set.geometry.unwrap(), counted_with_geometry(set));
+    let main = embedded_lines(&geometry, &column, true);
+    let names: Vec<&str> = main.iter().map(|line| line.name).collect();
+    assert_eq!(
+        names,
+        ["Early z", "rc-block", "Near neighbor", "nn-omni", "nn-omni (apart)"],
+        "what was not counted is left out"
+    );
+    assert_eq!((main[0].without, main[0].with, main[0].row), (Some(394_987), Some(386_542), None));
+    assert_eq!((main[1].without, main[1].with, main[1].ratio), (Some(1000), Some(980), Some(0.98)));
+    assert_eq!((main[1].parts.as_slice(), main[1].share), ([800, 100, 80].as_slice(), Some(1.0)));
+    assert_eq!((main[3].with, main[3].share), (Some(450), Some(450.0 / 980.0)), "to block skipping with geometry");
+    assert!((main[3].their_ratio.unwrap() - 309_558.0 / 336_413.0).abs() < 1e-12);
+    let intermediate = embedded_lines(&geometry, &column, false);
+    assert_eq!((intermediate[1].with, intermediate[1].ratio), (Some(6000), Some(3.0)));
+    assert_eq!((intermediate[4].without, intermediate[4].with), (Some(400), Some(390)), "to the plain form without");
+    let verdict = embedded_verdict(&intermediate).unwrap();
+    assert!(verdict.contains("rc-block 300.0 % of those without geometry, theirs 300.0 %"), "{verdict}");
+    // Without polygons the same column has the counts of its first runs.
+    let plain = lines(set, &column, true);
+    assert!(plain.iter().any(|line| line.row == PaperRow::Omni && line.ours == Some(500)));
+}
+
+#[test]
+fn geometry_and_figures_are_shown_and_written() {
+    let found = found_with_geometry();
+    let text = text(&found);
+    assert!(
+        text.contains("Near neighbor (thesis)") && text.contains("layer 2") && text.contains("29,675,808"),
+        "{text}"
+    );
+    assert!(text.contains("Early z 89,603 / 489,268, with geometry 79,665 / 1,957,072"), "absent ones too: {text}");
+    let page = page(&found, &|_| Ok(Png { bytes: vec![1], size: [2, 1] }));
+    assert!(page.contains("<h2>Figures") && page.contains("After Thesis ch. 6, Figure 3: a sphere &amp; an arrow"));
+    assert!(page.contains("a foot: foot.nrrd is not there") && page.matches("<img").count() == 2);
+    let csv = csv(&found).unwrap();
+    let mut reader = csv_reader(&csv);
+    let rows: Vec<Vec<String>> = reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect();
+    let of = |row: &str| {
+        let of_row = |line: &&Vec<String>| line[0] == "Foot with geometry" && line[3] == row && line[4] == "main";
+        rows.iter().filter(of_row).map(|line| line[7..].join(" ")).collect::<Vec<_>>()
+    };
+    let omni = ["  500  without ", "  400  with 0", "  50  with 1", "  0  with 2", "  450 0.900000 with "];
+    assert_eq!(of("nn-omni"), omni);
+    let of_choice = |line: &&Vec<String>| line[3] == "rc-block" && line[11] == "with" && line[5] == "main";
+    assert_eq!(rows.iter().filter(of_choice).count(), 2 * 4, "every count of ours has its choice");
+    assert_eq!(of("Near neighbor")[..2], ["336413    without ", "281973    with 0"]);
+}
+
+#[test]
+fn results_of_older_programs_are_read() {
+    let mut old = serde_json::to_value(found()).unwrap();
+    old.as_object_mut().unwrap().remove("figures");
+    old["columns"].as_array_mut().unwrap().truncate(7);
+    let old: Reproduction = serde_json::from_value(old).unwrap();
+    assert!(old.figures.is_empty() && text(&old).contains("Engine (Thesis") && csv(&old).is_ok());
+    assert!(!page(&old, &|_| Err("none".to_owned())).contains("<h2>Figures"));
+}
+
 /// Everything absent but Engine.
 fn found() -> Reproduction {
     let column = |set: &DataSet| ReproducedSet {
@@ -92,6 +236,7 @@ fn found() -> Reproduction {
             date: "2026-01-01T00:00:00Z".to_owned(),
         },
         columns: DATA_SETS.iter().map(column).collect(),
+        figures: Vec::new(),
     }
 }
 
@@ -154,7 +299,7 @@ fn csv_has_a_line_for_every_number() {
     let omni: Vec<&Vec<String>> =
         rows.iter().filter(|row| row[0] == "Engine" && row[3] == "nn-omni" && row[4] == "main").collect();
     assert_eq!(omni.len(), 2);
-    assert_eq!(omni[0][7..], ["186059", "0.601944", "600", "0.600000"]);
+    assert_eq!(omni[0][7..11], ["186059", "0.601944", "600", "0.600000"]);
     assert_eq!(omni[1][5..7], ["threshold T", "<1>"]);
     assert_eq!(omni[1][10], "0.900000");
     assert!(rows.iter().any(|row| row[0] == "Foot" && row[9].is_empty() && row[7] == "538173"));

@@ -9,7 +9,10 @@ use depthleap::part::rows::Method;
 use depthleap::projection::PROJECTIONS;
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{Alpha, Classification, Filter, Last, MeshSettings, Offset, Settings, VolumeTexture};
+use depthleap::scene::mesh::Keep;
+use depthleap::scene::settings::{
+    Alpha, Classification, ClipSettings, Filter, Last, MeshSettings, Offset, PartialSegments, Settings, VolumeTexture,
+};
 use depthleap::scene::{Camera, Scene};
 
 type Change = fn(&mut Settings);
@@ -18,7 +21,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 25] = [
+const KINDS: [(&str, Change); 30] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -65,6 +68,24 @@ const KINDS: [(&str, Change); 25] = [
             vec![cuboid(0.9, 0.3), across(0.5), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
         (s.sampling.last, s.sampling.offset, s.layers.most) = (Last::Partial, Offset::Midpoint, 3);
     }),
+    ("segments that end at a surface, drawn apart", |s| {
+        s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+        (s.layers.partial, s.layers.most) = (PartialSegments::Apart, 2);
+    }),
+    // Rays end at surfaces only: what was drawn before is of no matter to decisions, and frames begin empty all the same.
+    ("surfaces, and no ray that ends", |s| {
+        s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+        (s.layers.partial, s.layers.most, s.sampling.termination) = (PartialSegments::Apart, 2, 1.0);
+    }),
+    ("what is inside of a box", |s| s.clips = vec![clip(0.6, Keep::Inside)]),
+    ("what is outside of boxes that the eye is in", |s| {
+        s.clips = vec![clip(0.4, Keep::Outside), ClipSettings { scale: 1.9, ..clip(0.3, Keep::Outside) }];
+        s.clips[1].translate = s.camera.eye;
+        (s.meshes, s.layers.most) = (vec![cuboid(0.5, 0.4)], 3);
+    }),
+    ("what is behind the first surface of a box", |s| {
+        (s.clips, s.meshes) = (vec![clip(0.8, Keep::Thesis)], vec![across(0.5)]);
+    }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
         s.sampling.last = Last::Partial;
@@ -87,6 +108,12 @@ fn cuboid(side: f64, opacity: f64) -> MeshSettings {
 /// One that reaches out of the volume.
 fn across(opacity: f64) -> MeshSettings {
     MeshSettings { translate: [-0.35, 0.12, 0.31], color: [0.2, 0.3, 0.9], ..cuboid(0.6, opacity) }
+}
+
+/// Clip geometry, in the place of [`cuboid`].
+fn clip(side: f64, keep: Keep) -> ClipSettings {
+    let MeshSettings { builtin, rotate, .. } = cuboid(side, 0.0);
+    ClipSettings { builtin, keep, scale: side, rotate, ..ClipSettings::default() }
 }
 
 /// A value that few voxels of the volume have.

@@ -5,7 +5,8 @@ use depthleap::part::form::Form;
 use depthleap::plan::{Plan, plan};
 use depthleap::projection::{MIP, Projection};
 use depthleap::read;
-use depthleap::scene::settings::{Cull, Mark, MeshSettings, MethodName};
+use depthleap::scene::mesh::Keep;
+use depthleap::scene::settings::{ClipSettings, Cull, Mark, MeshSettings, MethodName, PartialSegments};
 use depthleap::scene::{Scene, Settings};
 
 /// 16 voxels a side, three main passes, few pixels.
@@ -39,6 +40,20 @@ fn layered(method: MethodName, form: Option<Form>) -> Plan {
     let mut settings = settings(method);
     let mesh = |opacity| MeshSettings { builtin: Some("box".to_owned()), opacity, ..MeshSettings::default() };
     (settings.meshes, settings.layers.most) = (vec![mesh(0.5), mesh(1.0)], 2);
+    plan(&scene(&settings), form).unwrap()
+}
+
+/// By early z, with clip geometry around the eye, and with a mesh where it keeps what is outside.
+fn clipped(keep: Keep, partial: PartialSegments, form: Option<Form>) -> Plan {
+    let mut settings = settings(method::RC_ERT.name());
+    let shape = Some("box".to_owned());
+    let near = [0.0, 0.0, settings.camera.eye[2]];
+    let translate = if keep == Keep::Outside { near } else { [0.0; 3] };
+    settings.clips = vec![ClipSettings { builtin: shape.clone(), keep, translate, ..ClipSettings::default() }];
+    if keep == Keep::Outside {
+        settings.meshes = vec![MeshSettings { builtin: shape, opacity: 0.5, ..MeshSettings::default() }];
+    }
+    (settings.layers.most, settings.layers.partial) = (2, partial);
     plan(&scene(&settings), form).unwrap()
 }
 
@@ -87,6 +102,13 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni+fused_ztest_copy_layers", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy)),
     ] {
         cases.push(Case { name, plan: layered(method, form) });
+    }
+    for (name, keep, partial) in [
+        ("rc-ert_clip_inside", Keep::Inside, PartialSegments::Within),
+        ("rc-ert_clip_thesis", Keep::Thesis, PartialSegments::Within),
+        ("rc-ert_clip_outside_apart", Keep::Outside, PartialSegments::Apart),
+    ] {
+        cases.push(Case { name, plan: clipped(keep, partial, form(Ztest, Fragdepth)) });
     }
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases

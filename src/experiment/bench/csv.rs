@@ -11,7 +11,8 @@
 //! 4. The document: `program`, `commit`, `command`, `date`, `version`.
 //! 5. Lists in one field: `fragments_main_per_pass`, `fragments_intermediate_per_pass`,
 //!    `invocations_main_per_pass`, `invocations_intermediate_per_pass`, `gpu_main_ms_per_pass`,
-//!    `gpu_intermediate_ms_per_pass` (numbers with a space between), `memory` (`NAME=BYTES`), `self_check`
+//!    `gpu_intermediate_ms_per_pass` (numbers with a space between, one more than `passes` where `layers.partial` is
+//!    `apart`), `memory` (`NAME=BYTES`), `self_check`
 //!    (`FORM=VERDICT`), `left_out` (`WHAT: WHY`), `plan`, `notes`, `warnings` (with `; ` between). How the volume was kept:
 //!    `texture`, `texture_x_error`, `texture_pixel_error` (`inf` where there is no bound).
 //! 6. Times of the groups of passes, `gpu_GROUP_ms` and so on as in 2, one set for each group that a run of the

@@ -1,21 +1,29 @@
-//! The thesis' tables, theirs beside ours.
+//! The thesis' tables, theirs beside ours, and pictures like its figures.
 
+mod data;
+pub mod embedded;
+mod embedded_rows;
+mod figures;
 mod page;
+mod paper_row;
 pub mod papers;
 mod record;
 mod rows;
 mod run;
+mod spreadsheet;
 mod text;
 
 use super::folder::{KeptResults, Page, Pages};
 use crate::error::Result;
 use crate::provenance::{self, DocumentFormat};
 
+pub use embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 pub use page::page;
-pub use record::{FORMAT, ReproducedSet, Reproduction, Variant};
+pub use record::{FORMAT, FigureRecord, ReproducedSet, Reproduction, Variant};
 pub use rows::{FragmentLine, lines, verdict};
-pub use run::{CountedSet, ReproduceJob, keep};
-pub use text::{csv, text};
+pub use run::{Counted, CountedSet, ReproduceJob, keep};
+pub use spreadsheet::csv;
+pub use text::text;
 
 /// `reproduce.html` and `reproduce.csv`.
 pub const PAGES: Pages = Pages { json: "reproduce.json", make };

@@ -1,23 +1,25 @@
 //! `reproduce.html`: the tables with their pictures, in the dress of the report.
 
+use super::embedded_rows::embedded_ratio;
 use super::papers::{DataSet, OPEN, PaperRow};
-use super::rows::{lines, ratio, verdict};
-use super::text::{KINDS, absent, percent, present, table};
-use super::{ReproducedSet, Reproduction};
+use super::rows::ratio;
+use super::text::{KINDS, absent, kind_of_fragments, percent, present};
+use super::{FigureRecord, ReproducedSet, Reproduction, Variant};
 use crate::report::html::{Html, Intro, Pictures, escape};
 use crate::report::table::{Column, Table};
 
 /// The whole file.
 pub fn page(found: &Reproduction, pictures: Pictures) -> String {
     let lead = "Use of GPU Functionality in Volume Rendering (NTNU, 2005) counted fragments of near-neighbor skipping beside \
-                those of empty block skipping. Its numbers stand beside ours, of the same volumes, views and steps; what it \
-                leaves open is swept.";
+                those of empty block skipping, alone and with polygons in the volume. Its numbers stand beside ours, of the same \
+                views and steps; what it leaves open is swept.";
     let mut intro = Intro::new(vec![lead.to_owned()], &found.provenance);
     if let Some(run) = found.columns.iter().flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {
         intro = intro.fact("Device", &format!("{}, {}", run.device, run.driver));
     }
     let mut page = Html::page("Depthleap reproduces the thesis' tables", &intro);
     present(found).for_each(|(set, column)| section(&mut page, set, column, pictures));
+    figures(&mut page, &found.figures, pictures);
     let absent = absent(found);
     if !absent.is_empty() {
         page.raw("<section>\n<h2>Absent</h2>\n");
@@ -43,35 +45,68 @@ fn section(page: &mut Html, set: &DataSet, column: &ReproducedSet, pictures: Pic
         page.raw("<div class=\"pictures\"><figure>");
         page.picture(pictures, file, set.name);
         let volume = column.file.as_deref().unwrap_or("");
-        page.raw(&format!("<figcaption>{}</figcaption></figure></div>\n", escape(volume)));
+        let meshes = set.geometry.map_or_else(String::new, |geometry| format!(": {}", geometry.scene.about));
+        page.raw(&format!("<figcaption>{}</figcaption></figure></div>\n", escape(&format!("{volume}{meshes}"))));
     }
     for (kind, main) in KINDS {
-        let lines = lines(set, column, main);
-        if lines.is_empty() {
-            continue;
-        }
+        let Some((table, verdict)) = kind_of_fragments(set, column, main) else { continue };
         page.tag("h3", &format!("{kind} fragments"));
-        page.table(&table(&lines));
-        if let Some(verdict) = verdict(&lines) {
+        page.table(&table);
+        if let Some(verdict) = verdict {
             page.tag("p", &format!("Ratios {verdict}"));
         }
     }
-    sweep(page, column);
+    match set.geometry {
+        Some(_) => sweep(page, column, "those without geometry", &WITH_GEOMETRY, embedded_ratio),
+        None => sweep(page, column, "block skipping", &ALONE, ratio),
+    }
     page.raw("</section>\n");
 }
 
-/// Each choice alone: the ratios to block skipping with it.
-fn sweep(page: &mut Html, column: &ReproducedSet) {
+/// The pictures of scenes like the thesis' figures, each with what it shows.
+fn figures(page: &mut Html, figures: &[FigureRecord], pictures: Pictures) {
+    if figures.is_empty() {
+        return;
+    }
+    page.raw("<section>\n<h2>Figures</h2>\n");
+    page.tag("p", "Scenes like those of the thesis' figures; places and colours are ours.");
+    page.raw("<div class=\"pictures\">");
+    for figure in figures.iter().filter(|figure| figure.absent.is_none()) {
+        let Some(file) = &figure.picture else { continue };
+        page.raw("<figure>");
+        page.picture(pictures, file, &figure.about);
+        let volume = figure.file.as_ref().map_or_else(|| "built in".to_owned(), Clone::clone);
+        let caption = format!("After {}: {} ({volume})", figure.source, figure.about);
+        page.raw(&format!("<figcaption>{}</figcaption></figure>\n", escape(&caption)));
+    }
+    page.raw("</div>\n");
+    let absent = |figure: &FigureRecord| Some(format!("{}: {}", figure.about, figure.absent.as_ref()?));
+    page.list(&figures.iter().filter_map(absent).collect::<Vec<_>>());
+    page.raw("</section>\n");
+}
+
+/// The rows of a sweep without polygons, and with them.
+const ALONE: [PaperRow; 4] = [PaperRow::BlockFirst, PaperRow::Optimal, PaperRow::Omni, PaperRow::Directional];
+const WITH_GEOMETRY: [PaperRow; 4] = [PaperRow::Block, PaperRow::Optimal, PaperRow::Omni, PaperRow::Directional];
+
+/// Each choice alone: the ratios to `whole` with it.
+fn sweep(
+    page: &mut Html,
+    column: &ReproducedSet,
+    whole: &str,
+    rows: &[PaperRow],
+    ratio: fn(&Variant, PaperRow, bool) -> Option<f64>,
+) {
     if column.variants.len() < 2 {
         return;
     }
-    const ROWS: [PaperRow; 4] = [PaperRow::BlockFirst, PaperRow::Optimal, PaperRow::Omni, PaperRow::Directional];
-    page.tag("h3", "each choice alone: % of block skipping, main / intermediate");
-    let ratios = ROWS.map(|row| Column::numbers(row.name()));
-    let mut table = Table::new([Column::words("")].into_iter().chain(ratios).collect());
+    page.tag("h3", &format!("each choice alone: % of {whole}, main / intermediate"));
+    let heads = rows.iter().map(|row| Column::numbers(row.name()));
+    let mut table = Table::new([Column::words("")].into_iter().chain(heads).collect());
     for variant in &column.variants {
-        let ratios =
-            ROWS.map(|row| format!("{} / {}", percent(ratio(variant, row, true)), percent(ratio(variant, row, false))));
+        let ratios = rows
+            .iter()
+            .map(|row| format!("{} / {}", percent(ratio(variant, *row, true)), percent(ratio(variant, *row, false))));
         table.row([format!("{}: {}", variant.choice, variant.value)].into_iter().chain(ratios));
     }
     page.table(&table);

@@ -1,60 +1,12 @@
 //! The numbers of the thesis' tables, and the views they were counted in.
 //!
-//! Thesis §5.4, Tables 1 and 2; Thesis §7.1, Table 1. What a view was follows from its counts: block skipping runs every
-//! fragment of the front face in every intermediate pass, so 9,891,936 = 428^2 x 54, 2,381,392 = 428^2 x 13 and 489,268 =
-//! 194^2 x 13. Read as one intermediate pass less than main passes, of M = 8 samples, the steps were 0.004 and 0.016 of
-//! the cube's side.
+//! Thesis §5.4, Tables 1 and 2; Thesis §7.1, Table 1; with polygons, [`embedded`]. What a view was follows from its counts:
+//! block skipping runs every fragment of the front face in every intermediate pass, so 9,891,936 = 428^2 x 54, 2,381,392 =
+//! 428^2 x 13 and 489,268 = 194^2 x 13. Read as one intermediate pass less than main passes, of M = 8 samples, the steps were
+//! 0.004 and 0.016 of the cube's side.
 
-/// A row of a table: what was counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum PaperRow {
-    /// Early z and empty blocks, tested after each main pass [KW03 §2.3].
-    Block,
-    /// The same, tested before the first main pass too; not in the thesis.
-    BlockFirst,
-    Optimal,
-    Omni,
-    Directional,
-    /// Omni and optimal, where a ray may look up a distance for every sample of a segment; not in the thesis.
-    OmniEach,
-    OptimalEach,
-    /// The lower bound; not in the thesis.
-    Ideal,
-}
-
-impl PaperRow {
-    pub const ALL: [Self; 8] = [
-        Self::Block,
-        Self::BlockFirst,
-        Self::Optimal,
-        Self::Omni,
-        Self::Directional,
-        Self::OptimalEach,
-        Self::OmniEach,
-        Self::Ideal,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Block => "rc-block",
-            Self::BlockFirst => "rc-block (block first)",
-            Self::Optimal => "nn-optimal",
-            Self::Omni => "nn-omni",
-            Self::Directional => "nn-directional",
-            Self::OptimalEach => "nn-optimal (8 lookups)",
-            Self::OmniEach => "nn-omni (8 lookups)",
-            Self::Ideal => "ideal",
-        }
-    }
-}
-
-/// Fragments of one method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Published {
-    pub row: PaperRow,
-    pub main: u64,
-    pub intermediate: u64,
-}
+use super::embedded::{self, Geometry};
+pub use super::paper_row::{PaperRow, Published};
 
 /// A column of the thesis' tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +25,10 @@ pub struct DataSet {
     /// Side of the front face, pixels.
     pub face: u32,
     pub intermediate_passes: u32,
-    /// Empty for volumes that are not in the thesis.
+    /// Empty for volumes that are not in the thesis, and where polygons are counted.
     pub rows: &'static [Published],
+    /// Polygons in the volume, and what was counted with them.
+    pub geometry: Option<Geometry>,
 }
 
 const fn row(row: PaperRow, main: u64, intermediate: u64) -> Published {
@@ -92,12 +46,14 @@ const LARGE: DataSet = DataSet {
     face: 428,
     intermediate_passes: 54,
     rows: &[],
+    geometry: None,
 };
 
 /// And for 64^3.
 const SMALL: DataSet = DataSet { side: 64, step: 0.016, intermediate_passes: 13, ..LARGE };
 
-pub const DATA_SETS: [DataSet; 7] = [
+/// Columns are added at the end: those of older results stand in front.
+pub const DATA_SETS: [DataSet; 10] = [
     DataSet {
         name: "MRI-Head",
         remark: Some("the volren.org scan of that name is not available; mri_head.nrrd is another head"),
@@ -172,6 +128,35 @@ pub const DATA_SETS: [DataSet; 7] = [
         remark: Some("vessels, with the thesis' parameters"),
         ..LARGE
     },
+    DataSet {
+        name: "Foot with geometry",
+        source: "Thesis ch. 6 §4, Tables 1 and 2",
+        file: Some(embedded::FOOT.scene.file),
+        remark: Some(
+            "the Philips scan is not available; foot_cadaver.nrrd is another foot, whose box of 133 x 162 x 120 voxels covers \
+             fewer pixels than the thesis' cube",
+        ),
+        side: 162,
+        geometry: Some(embedded::FOOT),
+        ..LARGE
+    },
+    DataSet {
+        name: "Engine with geometry",
+        source: "not in the thesis",
+        file: Some(embedded::ENGINE.scene.file),
+        remark: Some("the engine block, counted as the thesis counts the foot"),
+        geometry: Some(embedded::ENGINE),
+        ..LARGE
+    },
+    DataSet {
+        name: "Chapter 7 with geometry",
+        source: "Thesis §7.2, Table 2",
+        file: Some(embedded::FUEL.scene.file),
+        remark: Some("the thesis says nothing of this geometry; fuel is our guess, as in its Table 1"),
+        face: 194,
+        geometry: Some(embedded::FUEL),
+        ..SMALL
+    },
 ];
 
 /// Side of the square viewport, pixels.
@@ -200,7 +185,7 @@ impl DataSet {
 }
 
 /// What the thesis leaves open, and what that means here.
-pub const OPEN: [(&str, &str); 7] = [
+pub const OPEN: [(&str, &str); 12] = [
     (
         "transfer function",
         "\"a simple linear transfer function\": no points are given. Here `ramp` (0 below a quarter of the range, then \
@@ -221,4 +206,24 @@ pub const OPEN: [(&str, &str); 7] = [
     ),
     ("end of a ray", "noticed on arrival. Here as soon as the next section lies beyond it; swept: on arrival"),
     ("order of the block test", "KW03 tests after each main pass. Both orders are shown as rows"),
+    (
+        "geometry of chapter 6",
+        "\"a transparent blue sphere embedded in the volume and a green arrow behind the sphere\" [Thesis ch. 6, Figure 3], \
+         without numbers. Here a guess: a sphere whose diameter is 0.34 of the foot's longest side, and an opaque arrow 0.7 long \
+         behind it; in the engine a sphere and an arrow through it; in chapter 7 a sphere and a transparent arrow",
+    ),
+    ("early z of chapter 6", "with or without empty blocks is not said. Both are shown as rows, rc-block and rc-ert"),
+    ("near neighbor of chapter 6", "which distances are looked up is not said. All three are shown as rows"),
+    (
+        "depth layers",
+        "\"three depth layers\", whose last one is behind the volume's box; in chapter 7 the intermediate fragments of early z \
+         are 4 times those without geometry. Here two layers are peeled, three in chapter 7, so that rays have as many \
+         parts; layer 0 of both is the part in front of the first surface",
+    ),
+    (
+        "begin of a layer",
+        "the thesis processes \"all fragments ... at least once per layer, to set the initial value to skip\". Here rays \
+         without a surface there are left out by near-neighbor skipping; behind a surface the first main pass has an \
+         intermediate pass in front of it, one more than in front of the first surface",
+    ),
 ];

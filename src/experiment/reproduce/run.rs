@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::data;
+use super::figures::{self, DrawnFigure};
 use super::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
 use super::{FORMAT, ReproducedSet, Reproduction, Variant};
 use crate::error::Result;
@@ -15,7 +17,7 @@ use crate::method;
 use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::Camera;
-use crate::scene::settings::{Alpha, MethodSettings, Settings};
+use crate::scene::settings::{Alpha, MethodSettings, PartialSegments, Settings};
 
 /// A choice made otherwise than in the main configuration.
 type OpenChoice = (&'static str, &'static str, fn(&mut Settings));
@@ -49,12 +51,17 @@ pub struct ReproduceJob {
 /// A data set, and its picture in the main configuration.
 pub type CountedSet = (ReproducedSet, Option<Picture>);
 
-impl ReproduceJob {
+/// All that was counted and drawn.
+pub struct Counted {
     /// Data sets in the order of [`DATA_SETS`].
-    ///
+    pub columns: Vec<CountedSet>,
+    pub figures: Vec<DrawnFigure>,
+}
+
+impl ReproduceJob {
     /// # Errors
     /// When a volume cannot be read, or the driver fails.
-    pub fn run(&self, host: &Host) -> Result<Vec<CountedSet>> {
+    pub fn run(&self, host: &Host) -> Result<Counted> {
         let mut columns = Vec::new();
         let there = |set: &DataSet| self.file(set).is_ok();
         // In the papers every pass runs, those of rays that have ended too.
@@ -82,20 +89,20 @@ impl ReproduceJob {
             }
             columns.push((column, picture));
         }
+        let figures = figures::draw(opened.as_ref(), self.data.as_deref(), host)?;
         opened.map_or(Ok(()), host.close)?;
-        Ok(columns)
+        Ok(Counted { columns, figures })
     }
 
     /// The file of a data set, or why there is none.
     fn file(&self, set: &DataSet) -> std::result::Result<PathBuf, String> {
         let Some(name) = set.file else { return Err(set.remark.unwrap_or("the volume is not available").to_owned()) };
-        let Some(folder) = &self.data else { return Err(format!("give the folder with {name} as --data")) };
-        let path = folder.join(name);
-        if path.is_file() { Ok(path) } else { Err(format!("{} is not there", path.display())) }
+        data::volume(self.data.as_deref(), name)
     }
 }
 
-/// All rows of one configuration, and its picture where it is the main one.
+/// All rows of one configuration, and its picture where it is the main one. Where there are polygons, first without them and
+/// then with them.
 fn count(
     checked: &Checked,
     set: &DataSet,
@@ -103,6 +110,30 @@ fn count(
     (choice, value, change): OpenChoice,
 ) -> Result<(Variant, Option<Picture>)> {
     let main = choice == MAIN.0;
+    let settings = settings(set, path, change);
+    let methods = methods(set, &settings.method);
+    let measure = |settings: &Settings, methods: &[MethodSettings], reference: bool| {
+        let effort = Effort { warmups: 0, repeats: 0, reference };
+        Runner::new(Some(checked), read::scene(settings)?, set.name.to_owned()).measure(methods, effort, &|_| {})
+    };
+    let mut measured = measure(&settings, &methods, main && set.geometry.is_none())?;
+    let mut shown = 0;
+    if let Some(geometry) = &set.geometry {
+        shown = measured.len();
+        let scene = read::settings_of(geometry.scene.file, geometry.scene.text, Path::new(""))?;
+        let mut settings = Settings { meshes: scene.meshes, ..settings };
+        settings.layers.most = geometry.parts - 1;
+        measured.extend(measure(&settings, &methods, false)?);
+        settings.layers.partial = PartialSegments::Apart;
+        measured.extend(measure(&settings, &apart(&settings.method), false)?);
+    }
+    let (runs, pictures): (Vec<Run>, Vec<Picture>) = measured.into_iter().map(|one| (one.run, one.picture)).unzip();
+    let picture = pictures.into_iter().nth(shown).filter(|_| main);
+    Ok((Variant { choice: choice.to_owned(), value: value.to_owned(), runs }, picture))
+}
+
+/// The view and the sampling of the thesis.
+fn settings(set: &DataSet, path: &Path, change: fn(&mut Settings)) -> Settings {
     let mut settings = Settings::default();
     settings.volume.path = Some(path.to_owned());
     settings.transfer.preset = Some("ramp".to_owned());
@@ -114,34 +145,41 @@ fn count(
     // None after the last main pass.
     settings.sampling.passes = set.intermediate_passes + 1;
     change(&mut settings);
-    let method = |name| MethodSettings { name, ..settings.method.clone() };
-    let methods = [
-        method(method::RC_BLOCK.name()),
-        MethodSettings { block_first: true, ..method(method::RC_BLOCK.name()) },
-        method(method::NN_OPTIMAL.name()),
-        method(method::NN_OMNI.name()),
-        method(method::NN_DIRECTIONAL.name()),
-        MethodSettings { lookups: SAMPLES_PER_PASS, ..method(method::NN_OPTIMAL.name()) },
-        MethodSettings { lookups: SAMPLES_PER_PASS, ..method(method::NN_OMNI.name()) },
-    ];
-    let effort = Effort { warmups: 0, repeats: 0, reference: main };
-    let mut runner = Runner::new(Some(checked), read::scene(&settings)?, set.name.to_owned());
-    let mut measured = runner.measure(&methods, effort, &|_| {})?;
-    let picture = measured.drain(..1).next();
-    let first = picture.as_ref().map(|one| one.run.clone());
-    let runs: Vec<Run> = first.into_iter().chain(measured.into_iter().map(|one| one.run)).collect();
-    let variant = Variant { choice: choice.to_owned(), value: value.to_owned(), runs };
-    Ok((variant, picture.map(|one| one.picture).filter(|_| main)))
+    settings
+}
+
+/// The methods of a set's rows.
+fn methods(set: &DataSet, base: &MethodSettings) -> Vec<MethodSettings> {
+    let method = |name| MethodSettings { name, ..base.clone() };
+    let mut methods = vec![method(method::RC_BLOCK.name()), block_first(base)];
+    methods.extend(set.geometry.map(|_| method(method::RC_ERT.name())));
+    methods.extend([method::NN_OPTIMAL, method::NN_OMNI, method::NN_DIRECTIONAL].map(|row| method(row.name())));
+    if set.geometry.is_none() {
+        let each = |name| MethodSettings { lookups: SAMPLES_PER_PASS, ..method(name) };
+        methods.extend([method::NN_OPTIMAL, method::NN_OMNI].map(|row| each(row.name())));
+    }
+    methods
+}
+
+/// Empty blocks, looked for before the first main pass too.
+fn block_first(base: &MethodSettings) -> MethodSettings {
+    MethodSettings { name: method::RC_BLOCK.name(), block_first: true, ..base.clone() }
+}
+
+/// The methods that are counted with segments drawn apart too.
+fn apart(base: &MethodSettings) -> Vec<MethodSettings> {
+    let method = |name| MethodSettings { name, ..base.clone() };
+    vec![block_first(base), method(method::NN_OPTIMAL.name()), method(method::NN_OMNI.name())]
 }
 
 /// Keeps what was counted in `folder`, with the pictures.
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn keep(folder: &Path, counted: Vec<CountedSet>) -> Result<Reproduction> {
+pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
     create_folder(folder)?;
     let mut columns = Vec::new();
-    for (mut column, picture) in counted {
+    for (mut column, picture) in counted.columns {
         for run in column.variants.iter_mut().flat_map(|variant| &mut variant.runs) {
             run.settings = settings_in(folder, run.settings.clone());
         }
@@ -150,7 +188,15 @@ pub fn keep(folder: &Path, counted: Vec<CountedSet>) -> Result<Reproduction> {
         }
         columns.push(column);
     }
-    let found = Reproduction { provenance: Provenance::now(FORMAT), columns };
+    let mut figures = Vec::new();
+    for (mut figure, picture) in counted.figures {
+        figure.run.iter_mut().for_each(|run| run.settings = settings_in(folder, run.settings.clone()));
+        if let Some(picture) = &picture {
+            figure.picture = Some(keep_picture(folder, &["figure", &figure.scene], picture, [0.0; 3])?);
+        }
+        figures.push(figure);
+    }
+    let found = Reproduction { provenance: Provenance::now(FORMAT), columns, figures };
     write_json(&folder.join("reproduce.json"), &found)?;
     Ok(found)
 }

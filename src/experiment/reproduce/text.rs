@@ -1,11 +1,12 @@
-//! The comparison as plain text and as CSV.
+//! The comparison as plain text.
 
 use std::fmt::Write;
 
-use super::papers::{DATA_SETS, DataSet, OPEN, Published};
-use super::rows::{lines, ratio, verdict};
+use super::embedded::Geometry;
+use super::embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
+use super::papers::{DATA_SETS, DataSet, OPEN};
+use super::rows::{lines, verdict};
 use super::{FragmentLine, ReproducedSet, Reproduction};
-use crate::error::Result;
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
 
@@ -25,7 +26,7 @@ fn range(sweep: Option<[f64; 2]>) -> String {
 }
 
 /// Main or intermediate fragments, a row each.
-pub fn table(lines: &[FragmentLine]) -> Table {
+fn table(lines: &[FragmentLine]) -> Table {
     let numbers = ["thesis", "% of block", "here", "% of block", "over the sweep"].map(Column::numbers);
     let mut table = Table::new([Column::words("")].into_iter().chain(numbers).collect());
     for line in lines {
@@ -41,6 +42,32 @@ pub fn table(lines: &[FragmentLine]) -> Table {
     table
 }
 
+/// Main or intermediate fragments with polygons and without, a row each.
+fn embedded_table(geometry: &Geometry, lines: &[EmbeddedLine]) -> Table {
+    let parts = 0..geometry.parts as usize;
+    let heads = ["with, sum", "% of without", "over the sweep", "% of early z"].map(Column::numbers);
+    let layers = parts.clone().map(|i| Column::numbers(format!("layer {i}")));
+    let first = [Column::words(""), Column::numbers("without")];
+    let mut table = Table::new(first.into_iter().chain(layers).chain(heads).collect());
+    for line in lines {
+        let name = if line.row.is_none() { format!("{} (thesis)", line.name) } else { line.name.to_owned() };
+        let layers = parts.clone().map(|i| number(line.parts.get(i).copied()));
+        let sums = [number(line.with), percent(line.ratio), range(line.sweep), percent(line.share)];
+        table.row([name, number(line.without)].into_iter().chain(layers).chain(sums));
+    }
+    table
+}
+
+/// A table of a data set with what its ratios come to; none where nothing is counted for it.
+pub fn kind_of_fragments(set: &DataSet, column: &ReproducedSet, main: bool) -> Option<(Table, Option<String>)> {
+    if let Some(geometry) = &set.geometry {
+        let lines = embedded_lines(geometry, column, main);
+        return (!lines.is_empty()).then(|| (embedded_table(geometry, &lines), embedded_verdict(&lines)));
+    }
+    let lines = lines(set, column, main);
+    (!lines.is_empty()).then(|| (table(&lines), verdict(&lines)))
+}
+
 /// Data sets that were counted, each with its column.
 pub fn present(found: &Reproduction) -> impl Iterator<Item = (&'static DataSet, &ReproducedSet)> {
     DATA_SETS.iter().zip(&found.columns).filter(|(_, column)| column.absent.is_none())
@@ -50,9 +77,14 @@ pub fn present(found: &Reproduction) -> impl Iterator<Item = (&'static DataSet, 
 pub fn absent(found: &Reproduction) -> Vec<String> {
     let line = |(set, column): (&DataSet, &ReproducedSet)| {
         let why = column.absent.as_ref()?;
-        let count =
-            |row: &Published| format!("{} {} / {}", row.row.name(), thousands(row.main), thousands(row.intermediate));
-        let counts: Vec<String> = set.rows.iter().map(count).collect();
+        let pair = |name: &str, main, intermediate| format!("{name} {} / {}", thousands(main), thousands(intermediate));
+        let counts = set.rows.iter().map(|row| pair(row.row.name(), row.main, row.intermediate));
+        let embedded = set.geometry.iter().flat_map(|geometry| geometry.rows).filter_map(|row| {
+            let [[main, intermediate], [main_with, intermediate_with]] = row.theirs.map(|t| [t.without, t.with])?;
+            let with = pair("with geometry", main_with, intermediate_with);
+            Some(format!("{}, {with}", pair(row.name, main, intermediate)))
+        });
+        let counts: Vec<String> = counts.chain(embedded).collect();
         let theirs = match counts.is_empty() {
             true => set.source.to_owned(),
             false => format!("{}, main / intermediate: {}", set.source, counts.join(", ")),
@@ -63,7 +95,7 @@ pub fn absent(found: &Reproduction) -> Vec<String> {
 }
 
 /// Columns of all tables stand below each other.
-const WIDTHS: [usize; 6] = [23, 11, 10, 11, 10, 16];
+const WIDTHS: [usize; 7] = [23, 11, 10, 11, 10, 16, 10];
 
 /// All tables, the verdicts, what is absent, and what was left open.
 pub fn text(found: &Reproduction) -> String {
@@ -76,13 +108,10 @@ pub fn text(found: &Reproduction) -> String {
             let _ = writeln!(out, "  {remark}");
         }
         for (kind, main) in KINDS {
-            let lines = lines(set, column, main);
-            if lines.is_empty() {
-                continue;
-            }
+            let Some((table, verdict)) = kind_of_fragments(set, column, main) else { continue };
             let _ = writeln!(out, "  {kind} fragments");
-            out += &table(&lines).text(&layout);
-            if let Some(verdict) = verdict(&lines) {
+            out += &table.text(&layout);
+            if let Some(verdict) = verdict {
                 let _ = writeln!(out, "    {verdict}");
             }
         }
@@ -97,59 +126,4 @@ pub fn text(found: &Reproduction) -> String {
         let _ = writeln!(out, "  {what}: {choice}.");
     }
     out
-}
-
-/// One line for each number: `set`, `source`, `file`, `row`, `fragments` (main or intermediate), `choice`, `value`,
-/// `thesis`, `thesis_ratio`, `ours`, `ours_ratio`; empty fields where there is none.
-///
-/// # Errors
-/// When a row cannot be written, which only a fault of this program explains.
-pub fn csv(found: &Reproduction) -> Result<String> {
-    let head = [
-        "set",
-        "source",
-        "file",
-        "row",
-        "fragments",
-        "choice",
-        "value",
-        "thesis",
-        "thesis_ratio",
-        "ours",
-        "ours_ratio",
-    ];
-    let mut table = Table::new(head.map(Column::words).to_vec());
-    let or_empty = |number: Option<String>| number.unwrap_or_default();
-    for (set, column) in DATA_SETS.iter().zip(&found.columns) {
-        for (kind, main) in KINDS {
-            for line in lines(set, column, main) {
-                let mut put = |choice: &str, value: &str, ours: Option<u64>, our_ratio: Option<f64>| {
-                    table.row([
-                        set.name.to_owned(),
-                        set.source.to_owned(),
-                        column.file.clone().unwrap_or_default(),
-                        line.row.name().to_owned(),
-                        kind.to_owned(),
-                        choice.to_owned(),
-                        value.to_owned(),
-                        or_empty(line.theirs.map(|n| n.to_string())),
-                        or_empty(line.their_ratio.map(|r| format!("{r:.6}"))),
-                        or_empty(ours.map(|n| n.to_string())),
-                        or_empty(our_ratio.map(|r| format!("{r:.6}"))),
-                    ]);
-                };
-                match column.variants.as_slice() {
-                    [] => put("", "", None, None),
-                    [base, others @ ..] => {
-                        put(&base.choice, &base.value, line.ours, line.our_ratio);
-                        for variant in others {
-                            let ratio = ratio(variant, line.row, main);
-                            put(&variant.choice, &variant.value, None, ratio);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    table.csv()
 }

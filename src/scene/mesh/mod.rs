@@ -1,9 +1,15 @@
 //! Polygons of a scene: meshes as files and built-in shapes have them, and all of a scene's in their places.
 
+mod clip;
+mod crossings;
+mod cuts;
 mod polygons;
 mod shapes;
 
-pub use polygons::{Crossing, Crossings, Material, Polygons, Triangle};
+pub use clip::{ClipMesh, Keep, MOST_CLIPS, Windings};
+pub use crossings::{Crossing, Crossings};
+pub use cuts::{Cut, Cuts, DividedRay, ShownSurface};
+pub use polygons::{Material, Polygons, Triangle};
 pub use shapes::{SHAPES, Shape, shape};
 
 use glam::DVec3;

@@ -11,12 +11,14 @@
 //! new, and takes a value for an option where it cannot find one itself.
 
 mod camera;
+mod clip;
 mod image;
 mod key;
 mod layers;
 mod mesh;
 mod method;
 mod parse;
+mod placed;
 mod projection;
 mod sampling;
 mod section;
@@ -33,10 +35,13 @@ use crate::error::Result;
 pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
+pub use clip::ClipSettings;
 pub use image::Accumulate;
 pub use key::Key;
+pub use layers::PartialSegments;
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
+pub use placed::Placed;
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 
@@ -53,6 +58,9 @@ macro_rules! sections {
             /// Polygons, as an array of tables `[[mesh]]`.
             #[serde(rename = "mesh", skip_serializing_if = "Vec::is_empty")]
             pub meshes: Vec<MeshSettings>,
+            /// Geometry that the volume is cut at, as an array of tables `[[clip]]`.
+            #[serde(rename = "clip", skip_serializing_if = "Vec::is_empty")]
+            pub clips: Vec<ClipSettings>,
         }
 
         /// The options of all sections.
@@ -84,7 +92,8 @@ macro_rules! sections {
             /// When one is not, by its key and its option.
             pub fn check(&self) -> Result<()> {
                 $(self.$name.check()?;)*
-                self.meshes.iter().try_for_each(MeshSettings::check)
+                self.meshes.iter().try_for_each(MeshSettings::check)?;
+                clip::check(&self.clips)
             }
         }
     };
@@ -113,7 +122,8 @@ impl Settings {
     /// Every path of a file that the settings name.
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
-        [&mut self.volume.path, &mut self.transfer.file].into_iter().chain(meshes).flatten()
+        let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
+        [&mut self.volume.path, &mut self.transfer.file].into_iter().chain(meshes).chain(clips).flatten()
     }
 
     pub fn formats(&self) -> Formats {

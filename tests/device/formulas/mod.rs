@@ -3,6 +3,7 @@
 mod double_float;
 mod kit;
 mod opacity;
+mod polygon;
 mod ray;
 mod samples;
 mod section;
@@ -16,7 +17,15 @@ pub use kit::Random;
 use crate::harness::Test;
 
 pub fn tests() -> Vec<Test> {
-    let tests = [opacity::all(), double_float::all(), ray::all(), section::all(), samples::all(), volume::all()];
+    let tests = [
+        opacity::all(),
+        double_float::all(),
+        ray::all(),
+        section::all(),
+        samples::all(),
+        volume::all(),
+        polygon::all(),
+    ];
     tests.into_iter().flatten().map(|test| test.within("formulas")).collect()
 }
 

@@ -113,6 +113,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         blocks: None,
         table: None,
         projection: projection::of(&scene.settings),
+        fused: false,
         levels: Levels::default(),
     }
 }

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use depthleap::method::METHODS;
 use depthleap::part::Group;
 use depthleap::part::form::Form;
+use depthleap::plan::plan;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Last, MeshSettings, Offset, Settings};
+use depthleap::scene::settings::{Accumulate, Last, MeshSettings, Offset, PartialSegments, Settings};
 use depthleap::vulkan::Device;
 
 use super::compare::{SAME_SUM, difference};
@@ -16,6 +17,9 @@ use super::scenes::{Shot, Stage, VIEWS, by, differing, exactly, forms, scene, se
 use crate::harness::{Test, test};
 
 type Meshes = fn() -> Vec<MeshSettings>;
+
+/// The scene with the most layers: two of each shell.
+const CROWDED: &str = "eight shells in each other";
 
 /// What stands where; of large faces, since a rasteriser may see another one at each edge.
 const SCENES: [(&str, Meshes); 12] = [
@@ -27,7 +31,7 @@ const SCENES: [(&str, Meshes); 12] = [
     ("in front", || vec![MeshSettings { scale: 0.2, translate: [0.1, 0.05, 0.9], ..mesh("box") }]),
     ("behind", || vec![MeshSettings { scale: 0.6, translate: [0.0, 0.0, -1.5], ..mesh("sphere:8") }]),
     ("beside", || vec![MeshSettings { scale: 0.3, translate: [0.8, 0.4, 0.0], ..mesh("sphere:8") }]),
-    ("eight shells in each other", || {
+    (CROWDED, || {
         (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()
     }),
     ("two faces in one plane", || {
@@ -42,7 +46,7 @@ const SCENES: [(&str, Meshes); 12] = [
     }),
 ];
 
-fn mesh(builtin: &str) -> MeshSettings {
+pub fn mesh(builtin: &str) -> MeshSettings {
     MeshSettings {
         builtin: Some(builtin.to_owned()),
         color: [0.8, 0.5, 0.1],
@@ -63,7 +67,9 @@ pub fn tests() -> Vec<Test> {
                     exactly(settings);
                     settings.meshes = meshes();
                     settings.image.size = [62, 50];
-                    (settings.sampling.last, settings.layers.most) = (last, 16);
+                    // As many as there are, and one that ends the peeling.
+                    settings.layers.most = if name == CROWDED { 17 } else { 7 };
+                    settings.sampling.last = last;
                     if last == Last::Partial {
                         (settings.sampling.offset, settings.sampling.step) = (Offset::Midpoint, 0.8);
                     }
@@ -73,13 +79,18 @@ pub fn tests() -> Vec<Test> {
             tests.push(test(&format!("layers::{name}::{kind}"), move |device| held(device, &scene())));
         }
     }
+    for (name, meshes) in [SCENES[0], SCENES[1], SCENES[6], SCENES[11]] {
+        tests.push(test(&format!("layers::{name}::partial segments apart"), move |device| apart(device, meshes)));
+    }
+    tests.push(test("layers::partial_segments_apart_in_other_formats", apart_elsewhere));
+    tests.push(test("layers::ten_thousand_triangles_in_a_pixel", crowded));
     tests.push(test("layers::fewer_than_there_are", fewer));
     tests.push(test("layers::fragments_are_hardly_more", fragments));
     tests
 }
 
 /// Methods that cover all ways to end and to skip give their twins' pictures in every form, and one picture.
-fn held(device: &Arc<Device>, scene: &Scene) {
+pub fn held(device: &Arc<Device>, scene: &Scene) {
     let mut stage = Stage::new(device);
     let (mut largest, mut undecided) = (0.0f64, 0);
     for view in VIEWS.into_iter().take(2) {
@@ -110,6 +121,85 @@ fn held(device: &Arc<Device>, scene: &Scene) {
     println!("largest difference {largest:.1e}, at most {undecided} pixels undecided");
 }
 
+/// Segments that end at a surface, drawn in a pass of their own: the twin's picture, and the one of segments drawn within their
+/// passes, bit for bit and with as many main fragments.
+fn apart(device: &Arc<Device>, meshes: Meshes) {
+    held(device, &apart_scene(meshes, |_| {}, PartialSegments::Apart));
+    same_apart(device, |partial| apart_scene(meshes, |_| {}, partial));
+}
+
+/// The same where the format of the picture rounds so much that rays end a pass later, and where no ray ends early.
+fn apart_elsewhere(device: &Arc<Device>) {
+    let changes: [fn(&mut Settings); 3] = [
+        |s| s.image.accumulate = Accumulate::Rgba16f,
+        |s| (s.image.accumulate, s.sampling.termination) = (Accumulate::Rgba8, 0.6),
+        |s| s.sampling.termination = 1.0,
+    ];
+    for change in changes {
+        same_apart(device, |partial| apart_scene(SCENES[11].1, change, partial));
+    }
+    held(device, &apart_scene(SCENES[11].1, changes[2], PartialSegments::Apart));
+}
+
+fn apart_scene(meshes: Meshes, change: fn(&mut Settings), partial: PartialSegments) -> Scene {
+    scene("shells:24", "ramp", |settings| {
+        exactly(settings);
+        settings.meshes = meshes();
+        (settings.image.size, settings.layers.most) = ([62, 50], 8);
+        (settings.sampling.last, settings.layers.partial) = (Last::Partial, partial);
+        change(settings);
+    })
+}
+
+/// Pictures are the same bit for bit, wherever segments that end at a surface are drawn.
+fn same_apart(device: &Arc<Device>, of: impl Fn(PartialSegments) -> Scene) {
+    let mut stage = Stage::new(device);
+    for row in METHODS.into_iter().filter(|row| row.under_the_law()) {
+        let form = forms(device, row.name()).pop().flatten();
+        let mut shot = |partial| stage.shoot(&by(&of(partial), row.name()), form);
+        let (within, apart) = (shot(PartialSegments::Within), shot(PartialSegments::Apart));
+        let differs = differing(&within.picture, &apart.picture);
+        assert_eq!(differs, 0, "{}: {differs} pixels differ", row.name);
+        let sums = |shot: &Shot| {
+            let counts = shot.run.fragments.as_ref().expect("counts");
+            [counts.main.iter().sum::<u64>(), counts.intermediate.iter().sum()]
+        };
+        let ([main, before], [main_apart, before_apart]) = (sums(&within), sums(&apart));
+        println!("{}: main {main}, apart {main_apart}; intermediate {before}, apart {before_apart}", row.name);
+        // Without a decision before its first pass a ray takes part in it, whether it has work there or not.
+        assert!(main_apart <= main, "{}: {main_apart} main fragments, {main} with segments within", row.name);
+        let has = apart.plan.steps.iter().any(|step| step.pass_name() == "partial_pass");
+        assert!(has, "{}: no pass for segments that end at a surface", row.name);
+    }
+}
+
+/// As many triangles behind each other, and no more than so many peeled.
+fn crowded(device: &Arc<Device>) {
+    const TRIANGLES: usize = 10_000;
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("crowd.obj");
+    // One behind the other by 1e-4, the nearest last, so that their order is not that of the file.
+    let corners = (0..TRIANGLES).map(|i| {
+        let z = i as f64 / TRIANGLES as f64 - 0.5;
+        format!("v -0.4 -0.3 {z}\nv 0.4 -0.2 {z}\nv 0.05 0.4 {z}\nf -3 -2 -1\n")
+    });
+    std::fs::write(&file, corners.collect::<String>()).expect("a file");
+    let of = |opacity: f64, most: u32| {
+        scene("shells:24", "ramp", |settings| {
+            exactly(settings);
+            let mesh = MeshSettings { path: Some(file.clone()), color: [0.3, 0.9, 0.4], opacity, ..Default::default() };
+            settings.meshes = vec![mesh];
+            (settings.image.size, settings.layers.most, settings.sampling.passes) = ([20, 16], most, 12);
+        })
+    };
+    let transparent = of(0.02, 5);
+    let plan = plan(&transparent, None).expect("a plan");
+    let lacking = transparent.polygons.lacking(&plan.view.rays, plan.view.size, 5);
+    assert_eq!(lacking.iter().max(), Some(&(TRIANGLES as u32 - 5)), "as many behind each other");
+    held(device, &transparent);
+    held(device, &of(1.0, 5));
+}
+
 /// More layers than are peeled: the twin's picture all the same.
 fn fewer(device: &Arc<Device>) {
     let scene = scene("shells:24", "ramp", |settings| {
@@ -137,7 +227,7 @@ fn fragments(device: &Arc<Device>) {
         };
         let ((plain, _), (opaque, _), (cut, plan)) = (main(&plain), main(&opaque), main(&cut_scene));
         assert!(opaque <= plain, "{}: {opaque} main fragments behind opaque polygons, {plain} without", row.name);
-        let crossed = |i: u32| cut_scene.polygons.surfaces(&plan.view.rays, [i % 122, i / 122], 4).len() as u64;
+        let crossed = |i: u32| cut_scene.polygons.divided(&plan.view.rays, [i % 122, i / 122], 4).surfaces.len() as u64;
         let cuts: u64 = (0..122 * 98).map(crossed).sum();
         assert!(cut <= plain + cuts, "{}: {cut} main fragments, {plain} without layers, {cuts} cuts", row.name);
         println!("{}: {plain} main fragments, {opaque} with an opaque sphere, {cut} with a transparent one", row.name);

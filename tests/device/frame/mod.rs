@@ -1,6 +1,7 @@
 //! Frames on a device: every method in every form on tiny scenes (`matrix`); the law of skipping, the f64 twins and the exact
 //! integral on larger ones; what a frame leaves out.
 
+mod clips;
 mod compare;
 mod features;
 #[path = "../../plan/lacking.rs"]
@@ -25,6 +26,7 @@ pub fn tests() -> Vec<Test> {
         matrix::tests(),
         law::tests(),
         layers::tests(),
+        clips::tests(),
         orbit::tests(),
         truth::tests(),
         features::tests(),

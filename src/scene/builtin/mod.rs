@@ -3,10 +3,17 @@
 //!
 //! They are functions of p in [-1, 1]^3, which is texture space stretched: p = 2 * texture - 1. Tubes, shells and
 //! boxes are made of two profiles that reach 0 with two continuous derivatives: `bump` and `smoothstep`.
+//!
+//! **To add a volume**: its value and gradient in a file here, its row in [`ALL`]; `tests/scene.rs` goes through the rows.
 
-use glam::{DVec2, DVec3};
+mod blocks;
+mod engine;
+mod head;
+mod profile;
+mod signals;
+
+use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::volume::{Volume, Voxels};
 use crate::error::{Error, Result};
@@ -54,36 +61,50 @@ impl Builtin {
     }
 }
 
-/// Every built-in volume. `shells`, `jets` and `blocks` (u8) are exactly 0 in more than 60 % of their cells from
-/// 64^3 on, and on all six faces; the others (f32) reach the faces.
-pub const ALL: [Builtin; 7] = [
+/// Every built-in volume. Those in u8 are exactly 0 in more than 60 % of their cells from 64^3 on, and on all six faces; the
+/// others (f32) reach the faces.
+pub const ALL: [Builtin; 9] = [
     Builtin {
         name: "marschner-lobb",
         about: "the Marschner-Lobb test signal; f32, reaches the faces",
         stored: BuiltinVoxels::F32,
-        value: marschner_lobb,
-        gradient: marschner_lobb_gradient,
+        value: signals::marschner_lobb,
+        gradient: signals::marschner_lobb_gradient,
     },
     Builtin {
         name: "shells",
         about: "three thin concentric shells with empty space between; u8, 0 at the faces",
         stored: BuiltinVoxels::U8,
-        value: shells,
-        gradient: shells_gradient,
+        value: signals::shells,
+        gradient: signals::shells_gradient,
     },
     Builtin {
         name: "jets",
         about: "a straight jet and five that wind around it, sparse as vessels are; u8, 0 at the faces",
         stored: BuiltinVoxels::U8,
-        value: jets,
-        gradient: jets_gradient,
+        value: signals::jets,
+        gradient: signals::jets_gradient,
     },
     Builtin {
         name: "blocks",
         about: "boxes, a rod and a thin wall whose faces lie on seams of 8^3 blocks; u8, 0 at the faces",
         stored: BuiltinVoxels::U8,
-        value: blocks,
-        gradient: blocks_gradient,
+        value: blocks::blocks,
+        gradient: blocks::blocks_gradient,
+    },
+    Builtin {
+        name: "engine",
+        about: "a casting with two lined bores, a tunnel across them and bolts, in two densities; u8, 0 at the faces",
+        stored: BuiltinVoxels::U8,
+        value: |p| engine::engine(p).value,
+        gradient: |p| engine::engine(p).gradient,
+    },
+    Builtin {
+        name: "head",
+        about: "skin, skull and what is in it, as nested ellipsoids; u8, 0 at the faces",
+        stored: BuiltinVoxels::U8,
+        value: |p| head::head(p).value,
+        gradient: |p| head::head(p).gradient,
     },
     Builtin {
         name: "constant",
@@ -103,8 +124,8 @@ pub const ALL: [Builtin; 7] = [
         name: "gaussian",
         about: "a round Gaussian, 1 at the centre; f32, nearly 0 at the faces",
         stored: BuiltinVoxels::F32,
-        value: gaussian,
-        gradient: |p| -p / GAUSSIAN_SIGMA.powi(2) * gaussian(p),
+        value: signals::gaussian,
+        gradient: |p| -p / signals::GAUSSIAN_SIGMA.powi(2) * signals::gaussian(p),
     },
 ];
 
@@ -113,7 +134,7 @@ pub const ALL: [Builtin; 7] = [
 /// # Errors
 /// When there is none; the nearest name is given.
 pub fn find(name: &str) -> Result<&'static Builtin> {
-    static TABLE: [Builtin; 7] = ALL;
+    static TABLE: [Builtin; 9] = ALL;
     TABLE.iter().find(|b| b.name == name).ok_or_else(|| {
         let names = TABLE.iter().map(|b| b.name);
         let near = nearest(name, names.clone()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
@@ -189,163 +210,4 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Op
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, name)| name)
-}
-
-/// (1 - s)^3 below s = 1, 0 beyond, for s = (distance / half width)^2.
-fn bump(s: f64) -> f64 {
-    (1.0 - s).max(0.0).powi(3)
-}
-
-/// Derivative of [`bump`] after s.
-fn bump_slope(s: f64) -> f64 {
-    -3.0 * (1.0 - s).max(0.0).powi(2)
-}
-
-/// 0 below 0, 1 above 1, 6 t^5 - 15 t^4 + 10 t^3 between.
-fn smoothstep(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t.powi(3) * (t * (6.0 * t - 15.0) + 10.0)
-}
-
-/// Derivative of [`smoothstep`] after t.
-fn smoothstep_slope(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    30.0 * (t * (1.0 - t)).powi(2)
-}
-
-const GAUSSIAN_SIGMA: f64 = 0.3;
-
-fn gaussian(p: DVec3) -> f64 {
-    (-0.5 * p.length_squared() / GAUSSIAN_SIGMA.powi(2)).exp()
-}
-
-/// Frequency f_M and amplitude alpha of the signal's ripple, as Marschner and Lobb (An Evaluation of
-/// Reconstruction Filters for Volume Rendering, VIS 1994) chose them.
-const ML_FREQUENCY: f64 = 6.0;
-const ML_ALPHA: f64 = 0.25;
-
-/// (1 - sin(pi z / 2) + alpha (1 + rho(r))) / (2 (1 + alpha)) with rho(r) = cos(2 pi f_M cos(pi r / 2)) and r the
-/// distance from the z axis.
-fn marschner_lobb(p: DVec3) -> f64 {
-    let r = p.truncate().length();
-    let ripple = (TAU * ML_FREQUENCY * (FRAC_PI_2 * r).cos()).cos();
-    (1.0 - (FRAC_PI_2 * p.z).sin() + ML_ALPHA * (1.0 + ripple)) / (2.0 * (1.0 + ML_ALPHA))
-}
-
-fn marschner_lobb_gradient(p: DVec3) -> DVec3 {
-    let r = p.truncate().length();
-    let (sin, cos) = (FRAC_PI_2 * r).sin_cos();
-    let slope = PI * PI * ML_FREQUENCY * sin * (TAU * ML_FREQUENCY * cos).sin();
-    // The ripple is even in r, so its slope on the axis is 0.
-    let across = p.truncate().try_normalize().unwrap_or(DVec2::ZERO) * (ML_ALPHA * slope);
-    across.extend(-FRAC_PI_2 * (FRAC_PI_2 * p.z).cos()) / (2.0 * (1.0 + ML_ALPHA))
-}
-
-/// Radius and peak value of each shell: the brighter one lies inside the dimmer.
-const SHELLS: [(f64, f64); 3] = [(0.3, 1.0), (0.55, 0.75), (0.8, 0.5)];
-const SHELL_HALF_WIDTH: f64 = 0.07;
-
-fn shells(p: DVec3) -> f64 {
-    let r = p.length();
-    SHELLS.iter().map(|(radius, peak)| peak * bump(((r - radius) / SHELL_HALF_WIDTH).powi(2))).sum()
-}
-
-fn shells_gradient(p: DVec3) -> DVec3 {
-    let r = p.length();
-    let slope = SHELLS.iter().map(|(radius, peak)| {
-        let t = (r - radius) / SHELL_HALF_WIDTH;
-        peak * bump_slope(t * t) * 2.0 * t / SHELL_HALF_WIDTH
-    });
-    p.try_normalize().unwrap_or(DVec3::ZERO) * slope.sum::<f64>()
-}
-
-const WINDING_JETS: usize = 5;
-/// Turn of the winding jets along z, radians per unit.
-const JET_TURN: f64 = 1.6;
-/// Jets end at this |z|.
-const JET_END: f64 = 0.9;
-
-/// Centre of a jet at height z and its derivative: jet 0 is the axis, the others wind around it on a cone.
-fn jet_centre(jet: usize, z: f64) -> (DVec2, DVec2) {
-    if jet == 0 {
-        return (DVec2::ZERO, DVec2::ZERO);
-    }
-    let (radius, opening) = (0.4 + 0.25 * z, 0.25);
-    let outward = DVec2::from_angle(TAU * jet as f64 / WINDING_JETS as f64 + JET_TURN * z);
-    (radius * outward, opening * outward + radius * JET_TURN * outward.perp())
-}
-
-/// Radius of every jet at height z and its derivative.
-fn jet_radius(z: f64) -> (f64, f64) {
-    (0.1 + 0.03 * z, 0.03)
-}
-
-/// The share of a jet's value left at height z and its derivative: whole in the middle, 0 at the ends.
-fn jet_fade(z: f64) -> (f64, f64) {
-    let u = z / JET_END;
-    (bump(u.powi(4)), bump_slope(u.powi(4)) * 4.0 * u.powi(3) / JET_END)
-}
-
-/// Horizontal circles about each centre. Near the nozzle at -z the jets come close but do not overlap.
-fn jets(p: DVec3) -> f64 {
-    let (radius, _) = jet_radius(p.z);
-    let across = |jet| bump((p.truncate() - jet_centre(jet, p.z).0).length_squared() / (radius * radius));
-    (0..=WINDING_JETS).map(across).sum::<f64>() * jet_fade(p.z).0
-}
-
-fn jets_gradient(p: DVec3) -> DVec3 {
-    let ((radius, widening), (fade, fading)) = (jet_radius(p.z), jet_fade(p.z));
-    let one = |jet| {
-        let (centre, leaning) = jet_centre(jet, p.z);
-        let d = p.truncate() - centre;
-        let s = d.length_squared() / (radius * radius);
-        let s_across = 2.0 * d / (radius * radius);
-        let s_along = -s_across.dot(leaning) - 2.0 * s * widening / radius;
-        (bump_slope(s) * fade * s_across).extend(bump_slope(s) * fade * s_along + bump(s) * fading)
-    };
-    (0..=WINDING_JETS).map(one).sum()
-}
-
-struct Block {
-    centre: DVec3,
-    half: DVec3,
-    /// Over this depth inside each face the value rises from 0.
-    rise: f64,
-    value: f64,
-}
-
-/// None overlap. Outlines lie on multiples of 1/4, which are seams of 8^3 blocks in volumes of 64, 128, ... voxels:
-/// the first two boxes meet at one, and the wall straddles one with its brightest voxels on both sides.
-const BLOCKS: [Block; 5] = [
-    block([-0.5, -0.5, -0.25], [0.25, 0.25, 0.5], 0.1, 1.0),
-    block([0.0, -0.5, -0.25], [0.25, 0.25, 0.25], 0.1, 0.7),
-    block([0.5, 0.5, 0.5], [0.25, 0.25, 0.25], 0.1, 0.85),
-    block([0.0, 0.0, 0.0], [0.75, 0.07, 0.75], 0.07, 0.55),
-    block([-0.5, 0.5, 0.0], [0.1, 0.1, 0.75], 0.1, 0.65),
-];
-
-const fn block(centre: [f64; 3], half: [f64; 3], rise: f64, value: f64) -> Block {
-    Block { centre: DVec3::from_array(centre), half: DVec3::from_array(half), rise, value }
-}
-
-impl Block {
-    /// Depth inside the faces across each axis, 1 where the value has risen in full.
-    fn depth(&self, p: DVec3) -> DVec3 {
-        (self.half - (p - self.centre).abs()) / self.rise
-    }
-}
-
-fn blocks(p: DVec3) -> f64 {
-    BLOCKS.iter().map(|b| b.value * b.depth(p).to_array().map(smoothstep).iter().product::<f64>()).sum()
-}
-
-fn blocks_gradient(p: DVec3) -> DVec3 {
-    let one = |b: &Block| {
-        let step = DVec3::from_array(b.depth(p).to_array().map(smoothstep));
-        let slope = DVec3::from_array(b.depth(p).to_array().map(smoothstep_slope));
-        let inward = -(p - b.centre).signum() / b.rise;
-        let others = DVec3::new(step.y * step.z, step.z * step.x, step.x * step.y);
-        b.value * inward * slope * others
-    };
-    BLOCKS.iter().map(one).sum()
 }
