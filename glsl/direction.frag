@@ -3,6 +3,7 @@
 // along the ray magnify an error made here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+//@takes [PLANES]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"

@@ -1,16 +1,17 @@
 //! The longest ray of a view: what going through all pixels finds, for much less.
 
-use depthleap::math::ray::{ViewRays, box_interval};
+use depthleap::math::polyhedron::HalfSpace;
+use depthleap::math::ray::{ViewRays, cut_interval};
 use depthleap::scene::Camera;
 use depthleap::scene::Region;
 use depthleap::scene::longest::longest_ray;
 use glam::DVec3;
 
-fn brute(rays: &ViewRays, half: DVec3, region: Region) -> f64 {
+fn brute(rays: &ViewRays, half: DVec3, planes: &[HalfSpace], region: Region) -> f64 {
     let lengths = region.rows().flat_map(|row| {
         region.columns().map(move |c| {
             let direction = rays.direction(c, row);
-            let interval = box_interval(rays.eye, direction, half, rays.near);
+            let interval = cut_interval(rays.eye, direction, half, rays.near, planes);
             interval.map_or(0.0, |(enter, leave)| (leave - enter) * direction.length())
         })
     });
@@ -39,7 +40,11 @@ fn is_what_going_through_all_pixels_finds() {
         let size = [1 + (60.0 * number()) as u32, 1 + (60.0 * number()) as u32];
         let rays = camera.rays(size).unwrap();
         let region = Region { x: 0, y: 0, width: size[0], height: size[1] };
-        assert_eq!(longest_ray(&rays, half, region), brute(&rays, half, region), "{camera:?} {size:?} {half}");
+        let normal = |number: &mut dyn FnMut() -> f64| DVec3::new(number() - 0.5, number() - 0.5, number() - 0.5);
+        let plane = |_| HalfSpace { normal: normal(&mut number).normalize(), distance: 0.6 * (number() - 0.7) };
+        let planes: Vec<HalfSpace> = (0..i % 4).map(plane).collect();
+        let found = longest_ray(&rays, half, &planes, region);
+        assert_eq!(found, brute(&rays, half, &planes, region), "{camera:?} {size:?} {half} {planes:?}");
     }
 }
 
@@ -48,7 +53,7 @@ fn costs_little_in_the_largest_picture() {
     let camera = Camera::orbit(30.0, 20.0, 1.91, 45.0);
     let rays = camera.rays([65535, 65535]).unwrap();
     let begin = std::time::Instant::now();
-    let found = longest_ray(&rays, DVec3::splat(0.5), Region { x: 0, y: 0, width: 65535, height: 65535 });
+    let found = longest_ray(&rays, DVec3::splat(0.5), &[], Region { x: 0, y: 0, width: 65535, height: 65535 });
     assert!(begin.elapsed().as_secs() < 5, "{:?}", begin.elapsed());
     assert!((1.0..3.0_f64.sqrt()).contains(&found), "{found}");
 }

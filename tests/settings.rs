@@ -60,8 +60,21 @@ fn value(settings: &Settings, key: &str) -> Option<Value> {
     table(settings)[section].get(name).cloned()
 }
 
+/// Options of sections. `--clip-plane` adds a table `[[clip]]`, of which there may be any number.
 fn options() -> Vec<Arg> {
-    SettingsOptions::augment_args(Command::new("test")).get_arguments().cloned().collect()
+    let command = SettingsOptions::augment_args(Command::new("test"));
+    command.get_arguments().filter(|option| option.get_long() != Some("clip-plane")).cloned().collect()
+}
+
+#[test]
+fn clip_planes_are_added_to_those_of_the_scene_file() {
+    let planes = |arguments: &[&str]| -> Vec<Option<[f64; 4]>> {
+        let arguments: Vec<String> = arguments.iter().map(|argument| (*argument).to_owned()).collect();
+        under(&arguments).clips.iter().map(|clip| clip.plane).collect()
+    };
+    assert_eq!(planes(&[]), []);
+    let (first, second) = ([0.0, -1.0, 0.5, -0.25], [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(planes(&["--clip-plane", "0,-1,0.5,-0.25", "--clip-plane=1,0,0,0"]), [Some(first), Some(second)]);
 }
 
 /// The default settings under these arguments.

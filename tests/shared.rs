@@ -17,7 +17,7 @@ use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{AxisPiece, Bundle, Frame, Piece, PushStep, Slice, pieces, rows};
+use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, pieces, rows};
 use random::Random;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -90,6 +90,10 @@ fn bundle() -> Layout {
 
 fn axis_piece() -> Layout {
     layout!(AxisPiece { begin, inverse_length, first, intervals })
+}
+
+fn clip_plane() -> Layout {
+    layout!(ClipPlane { heights })
 }
 
 /// What differs, one line each.
@@ -232,6 +236,11 @@ fn slice_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn bundle_is_alike_in_rust_and_in_every_shader() {
     assert_alike("Bundle", &bundle(), "structure/bundle.comp:LARGER");
+}
+
+#[test]
+fn clip_plane_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("ClipPlane", &clip_plane(), "entry.frag:PLANES");
 }
 
 #[test]

@@ -1,5 +1,5 @@
 // Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs.
-// Needs frame.glsl and double_float.glsl.
+// Needs frame.glsl and double_float.glsl. PLANES: the interval of a ray is cut at clip planes [Thesis §3.1.2].
 
 // Beyond every volume, in volume units.
 const float FAR_AWAY = 3.0e38;
@@ -16,14 +16,55 @@ vec2 eye_coordinate(int axis) {
     return vec2(frame.eye[0][axis], frame.eye[1][axis]);
 }
 
-// Depths between which the ray is inside the box and beyond the near plane: enter and leave, and the axis
-// whose face it meets there (-1: the near plane). A ray that misses has enter >= leave.
+#ifdef PLANES
+// The height of the eye over a clip plane, and what a ray rises by over it in a unit of depth, for base, right and down:
+// double-floats.
+struct ClipPlane {
+    vec4 heights[2];
+};
+
+layout(set = 0, binding = 18, std430) readonly buffer ClipPlanes {
+    ClipPlane clip_planes[];
+};
+#endif
+
+// Depths between which the ray is inside the box, beyond the near plane and where clip planes keep it: enter and leave, and the
+// axis whose face it meets there (-1: another plane). A ray that misses has enter >= leave.
 struct Interval {
     vec2 enter;
     vec2 leave;
     int enter_axis;
     int leave_axis;
 };
+
+#ifdef PLANES
+// Cuts the interval at all clip planes.
+void cut_at_planes(inout Interval interval, vec2 pixel) {
+    for (uint i = 0u; i < clip_planes.length(); ++i) {
+        vec4 high = clip_planes[i].heights[0];
+        vec4 low = clip_planes[i].heights[1];
+        vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(high.z, low.z));
+        vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(high.w, low.w));
+        vec2 rise = df_add(vec2(high.y, low.y), df_add(along_x, along_y));
+        vec2 height = vec2(high.x, low.x);
+        if (rise.x == 0.0) {
+            if (height.x < 0.0) {
+                interval.leave = vec2(0.0);
+            }
+            continue;
+        }
+        vec2 depth = df_divide(-height, rise);
+        if (rise.x > 0.0 && df_less(interval.enter, depth)) {
+            interval.enter = depth;
+            interval.enter_axis = -1;
+        }
+        if (rise.x < 0.0 && df_less(depth, interval.leave)) {
+            interval.leave = depth;
+            interval.leave_axis = -1;
+        }
+    }
+}
+#endif
 
 Interval box_interval(vec2 pixel) {
     Interval interval = Interval(vec2(frame.near, 0.0), vec2(FAR_AWAY, 0.0), -1, -1);
@@ -51,6 +92,9 @@ Interval box_interval(vec2 pixel) {
             interval.leave_axis = axis;
         }
     }
+#ifdef PLANES
+    cut_at_planes(interval, pixel);
+#endif
     return interval;
 }
 

@@ -83,8 +83,8 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
     Ok(settings)
 }
 
-/// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes and
-/// of its clip meshes.
+/// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes, of its
+/// clip meshes and of its clip planes.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
     let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
@@ -102,8 +102,10 @@ pub fn scene_name(settings: &Settings) -> String {
         n => Some(format!("{n} {more}")),
     };
     let meshes = number(settings.meshes.len(), "a mesh", "meshes");
-    let clips = number(settings.clips.len(), "a clip mesh", "clip meshes");
-    let geometry: Vec<String> = [meshes, clips].into_iter().flatten().collect();
+    let cut = settings.clips.iter().filter(|clip| clip.plane.is_some()).count();
+    let planes = number(cut, "a clip plane", "clip planes");
+    let clips = number(settings.clips.len() - cut, "a clip mesh", "clip meshes");
+    let geometry: Vec<String> = [meshes, clips, planes].into_iter().flatten().collect();
     let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.
     let volume = file.unwrap_or_else(built_in);

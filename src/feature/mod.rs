@@ -17,6 +17,7 @@ mod interpolation;
 mod last_sample;
 pub mod layers;
 mod opacity_correction;
+mod planes;
 mod preintegration;
 mod reasons;
 mod start;
@@ -43,11 +44,12 @@ use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
 use layers::{CLIPPED, LAYER_BEFORE, LAYER_BEHIND};
 use opacity_correction::OPACITY_CORRECTION;
+use planes::CLIP_PLANES;
 use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 25] = [
+pub const FEATURES: [&Feature; 26] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -73,6 +75,7 @@ pub const FEATURES: [&Feature; 25] = [
     &LAYER_BEHIND,
     &OPAQUE_SURFACE,
     &APART,
+    &CLIP_PLANES,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

@@ -23,7 +23,7 @@ use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, rig};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
-use crate::scene::{Camera, Scene, TextureUnit, TransferFunction};
+use crate::scene::{Camera, ClipPlanes, Scene, TextureUnit, TransferFunction};
 use crate::vulkan::{Device, vk};
 
 /// What was found for one form.
@@ -158,7 +158,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     let transfer =
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
     let (field, polygons, unit) = (Arc::new(field), Arc::default(), TextureUnit::default());
-    Ok(Scene { settings, field, transfer, camera, polygons, unit })
+    Ok(Scene { settings, field, transfer, camera, polygons, planes: ClipPlanes::default(), unit })
 }
 
 struct FormRun {

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::math::ray::{ViewRays, box_interval};
+use crate::math::ray::ViewRays;
 use crate::part::geometry::{Geometry, Hits, Sample};
 use crate::resource;
 use crate::scene::Scene;
@@ -33,10 +33,9 @@ const BOX: Geometry = Geometry {
 /// One fragment where the ray meets the box, which is convex. A rasteriser moves corners by up to half of its raster on
 /// each axis; twice that leaves room for its own arithmetic.
 fn hits(scene: &Scene, rays: &ViewRays, Sample { pixel: [column, row], raster }: Sample) -> Hits {
-    let half = 0.5 * scene.field.extent();
     let hit = |x: f64, y: f64| {
         let direction = rays.direction(column, row) + x * rays.right + y * rays.down;
-        box_interval(rays.eye, direction, half, rays.near).is_some()
+        scene.interval(rays, direction).is_some()
     };
     let centre = hit(0.0, 0.0);
     let around = [(raster, raster), (-raster, raster), (raster, -raster), (-raster, -raster)];

@@ -22,10 +22,17 @@ pub struct Polyhedron {
 }
 
 /// The half space `normal . p >= distance`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
     pub normal: DVec3,
     pub distance: f64,
+}
+
+impl HalfSpace {
+    /// Height of a point over the plane, in lengths of the normal; negative outside.
+    pub fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.distance
+    }
 }
 
 impl Polyhedron {
@@ -49,9 +56,9 @@ impl Polyhedron {
         Self { corners, faces }
     }
 
-    /// What of it lies in `space`. With `cap`, the cut becomes a front face.
-    pub fn clipped(&self, space: HalfSpace, cap: bool) -> Self {
-        let height: Vec<f64> = self.corners.iter().map(|&c| space.normal.dot(c) - space.distance).collect();
+    /// What of it lies in `space`. With `cap`, the cut becomes a face, at the front where that is true.
+    pub fn clipped(&self, space: HalfSpace, cap: Option<bool>) -> Self {
+        let height: Vec<f64> = self.corners.iter().map(|&c| space.height(c)).collect();
         if height.iter().all(|&h| h >= 0.0) {
             return self.clone();
         }
@@ -78,9 +85,9 @@ impl Polyhedron {
                 result.faces.push(Face { corners: kept, front: face.front });
             }
         }
-        if cap && cuts.len() >= 3 {
+        if let Some(front) = cap.filter(|_| cuts.len() >= 3) {
             let corners = around(space.normal, cuts.into_values().collect(), &result.corners);
-            result.faces.push(Face { corners, front: true });
+            result.faces.push(Face { corners, front });
         }
         result
     }

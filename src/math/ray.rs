@@ -5,6 +5,8 @@
 
 use glam::DVec3;
 
+use super::polyhedron::HalfSpace;
+
 /// The rays of a view: `eye + depth * (base + column * right + row * down)`, with column and row in pixels,
 /// pixel centres at + 0.5, row 0 on top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +41,22 @@ pub fn box_interval(eye: DVec3, direction: DVec3, half: DVec3, near: f64) -> Opt
         let b = (half[axis] - eye[axis]) / direction[axis];
         enter = enter.max(a.min(b));
         leave = leave.min(a.max(b));
+    }
+    (enter < leave).then_some((enter, leave))
+}
+
+/// The same of the part of the box that lies in all of these half spaces.
+pub fn cut_interval(eye: DVec3, direction: DVec3, half: DVec3, near: f64, spaces: &[HalfSpace]) -> Option<(f64, f64)> {
+    let (mut enter, mut leave) = box_interval(eye, direction, half, near)?;
+    for space in spaces {
+        let (height, rise) = (space.height(eye), space.normal.dot(direction));
+        if rise > 0.0 {
+            enter = enter.max(-height / rise);
+        } else if rise < 0.0 {
+            leave = leave.min(-height / rise);
+        } else if height < 0.0 {
+            return None;
+        }
     }
     (enter < leave).then_some((enter, leave))
 }

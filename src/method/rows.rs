@@ -57,8 +57,8 @@ pub fn begin(context: &Context, steps: &mut Steps) {
     let decides = context.has(&DECISIONS) && !context.method.fused;
     let a_pass = 1 + usize::from(decides) + usize::from(context.has(&MARK_COPIES));
     steps.reserve(a_pass * context.passes as usize + (context.passes / BATCH) as usize + STEPS_BEFORE);
-    steps.push(entry::entry());
-    steps.push(direction::direction());
+    steps.push(entry::entry(context));
+    steps.push(direction::direction(context));
     steps.extend(context.has(&START).then(|| start::start(context)));
 }
 

@@ -131,6 +131,8 @@ impl From<String> for Why {
 /// The place in a shader where a feature does its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hook {
+    /// Where it is known between which depths a ray is drawn at all.
+    Interval,
     /// Where it is known which part of a ray is drawn.
     Ray,
     /// Where it is known which surface ends that part.

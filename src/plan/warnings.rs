@@ -2,11 +2,12 @@
 
 use super::Plan;
 use crate::projection;
-use crate::scene::Scene;
 use crate::scene::mesh::ClipMesh;
 use crate::scene::range::RangeEnd;
 use crate::scene::settings::{Accumulate, Filter, VolumeTexture};
 use crate::scene::texture::{TextureChoice, Within};
+use crate::scene::view::View;
+use crate::scene::{ClipPlanes, Scene};
 use crate::structure::cells::any_interesting;
 
 /// The warnings of a plan: of the volume's file, of a picture that is bound to be empty, of an imprecise texture, of values
@@ -50,6 +51,12 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
         let sides = field.extent().to_array().map(|side| format!("{side:.3}")).join(" x ");
+        if all_cut_off(scene) {
+            return Some(format!(
+                "the picture is empty: clip planes cut off all that the eye {eye:?} sees of the volume, which lies about 0,0,0 with \
+                 the sides {sides}; a plane [nx, ny, nz, d] keeps what has n . p + d >= 0: turn its signs, or give another d"
+            ));
+        }
         return Some(format!(
             "the picture is empty: from the eye {eye:?} towards {target:?} no ray meets the volume, which lies about 0,0,0 \
              with the sides {sides}; choose another --eye or --target, or more pixels (--viewport)"
@@ -91,6 +98,12 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         "the picture is empty: {values}, and over the scalar range {low} to {high} the transfer function {transfer} shows \
          nothing there; try another --tf{advice}"
     ))
+}
+
+/// Whether rays would meet the volume if it were not for clip planes.
+fn all_cut_off(scene: &Scene) -> bool {
+    let whole = Scene { planes: ClipPlanes::default(), ..scene.clone() };
+    !scene.clip_planes().is_empty() && View::new(&whole).is_ok_and(|view| view.longest_samples > 0)
 }
 
 /// That a clip mesh has no inside of its own.

@@ -8,9 +8,10 @@ use serde_json::Value;
 
 use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
+use crate::math::polyhedron::HalfSpace;
 use crate::scene::mesh::{Mesh, shape};
-use crate::scene::settings::{Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
-use crate::scene::{Camera, Field, Polygons, Scene, TextureUnit, Volume, builtin};
+use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
+use crate::scene::{Camera, ClipPlanes, Field, Polygons, Scene, TextureUnit, Volume, builtin};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
@@ -115,9 +116,13 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let volume = volume(settings)?;
     let camera = camera.in_axes_of(volume.turn);
     let polygons = Arc::new(polygons(settings, volume.turn)?);
+    let back = volume.turn.inverse();
     let field = Field::of(volume, &settings.volume.normalisation())?;
+    let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
+    let planes = settings.clips.iter().filter_map(ClipSettings::half_space).map(in_axes);
+    let planes = ClipPlanes::new(planes, 0.5 * field.extent());
     let (settings, field) = (settings.clone(), Arc::new(field));
-    Ok(Scene { settings, field, transfer, camera, polygons, unit: TextureUnit::default() })
+    Ok(Scene { settings, field, transfer, camera, polygons, planes, unit: TextureUnit::default() })
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.
@@ -135,7 +140,7 @@ fn polygons(settings: &Settings, turn: DQuat) -> Result<Polygons> {
         let (mesh, place) = placed(settings.placed())?;
         polygons.add(&mesh, place, settings.material())?;
     }
-    for settings in &settings.clips {
+    for settings in settings.clips.iter().filter(|clip| clip.plane.is_none()) {
         let (mesh, place) = placed(settings.placed())?;
         polygons.add_clip(&mesh, place, settings.keep)?;
     }

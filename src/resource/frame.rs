@@ -38,6 +38,20 @@ static FRAME_INFO: ResourceInfo = ResourceInfo {
     }),
 };
 
+/// Planes that rays are cut at.
+pub const CLIP_PLANES: Resource = Resource::new(&CLIP_PLANES_INFO);
+static CLIP_PLANES_INFO: ResourceInfo = ResourceInfo {
+    name: "clip_planes",
+    holds: "heights of the eye over clip planes and what rays rise by, `ClipPlane` of ray.glsl",
+    kind: ResourceKind::Storage(|facts, _| (size_of::<shared::ClipPlane>() * facts.scene.clip_planes().len()) as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let plane = |plane| shared::ClipPlane::new(plane, &facts.view.rays);
+        let planes: Vec<_> = facts.scene.clip_planes().iter().map(plane).collect();
+        bytemuck::cast_slice(&planes).to_vec().into()
+    }),
+};
+
 /// An image that frames draw into.
 const fn target(name: &'static str, holds: &'static str, format: fn(Formats) -> vk::Format) -> ResourceInfo {
     ResourceInfo { name, holds, kind: ResourceKind::Target(format), life: Life::Frame, origin: Origin::Drawn }

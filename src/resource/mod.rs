@@ -10,7 +10,7 @@ mod look;
 mod structure;
 pub mod texels;
 
-pub use frame::{ACCUMULATED, BOX, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
+pub use frame::{ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
 pub use layers::{
     CLIP_WINDING, LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES,
 };
@@ -23,9 +23,10 @@ pub use structure::{
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 37] = [
+pub const RESOURCES: [Resource; 38] = [
     BOX,
     FRAME,
+    CLIP_PLANES,
     ENTRY,
     DIRECTION,
     ACCUMULATED,

@@ -9,6 +9,7 @@ pub mod limits;
 pub mod longest;
 pub mod mesh;
 pub mod method;
+pub mod planes;
 pub mod projection;
 pub mod range;
 pub mod region;
@@ -25,6 +26,7 @@ use std::sync::Arc;
 pub use camera::Camera;
 pub use field::Field;
 pub use mesh::Polygons;
+pub use planes::ClipPlanes;
 pub use region::Region;
 pub use settings::Settings;
 pub use texture::TextureUnit;
@@ -40,6 +42,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Polygons in and around the volume.
     pub polygons: Arc<Polygons>,
+    /// Planes that the volume is cut at.
+    pub planes: ClipPlanes,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
 }

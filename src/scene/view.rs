@@ -1,4 +1,4 @@
-//! A scene as its camera sees it: the box as triangles, the pixels it covers, the longest ray.
+//! A scene as its camera sees it: the box, cut by clip planes, as triangles, the pixels it covers, the longest ray.
 
 use glam::{DMat3, DVec3};
 
@@ -40,12 +40,17 @@ impl View {
 
         let through_eye = |normal: DVec3| HalfSpace { normal, distance: normal.dot(rays.eye) };
         let near = HalfSpace { normal: basis.forward, distance: basis.forward.dot(rays.eye) + rays.near };
-        let solid = Polyhedron::cuboid(half, rays.eye)
-            .clipped(near, true)
-            .clipped(through_eye(GUARD * half_width * basis.forward - basis.right), false)
-            .clipped(through_eye(GUARD * half_width * basis.forward + basis.right), false)
-            .clipped(through_eye(GUARD * half_height * basis.forward - basis.up), false)
-            .clipped(through_eye(GUARD * half_height * basis.forward + basis.up), false);
+        // Rays enter by a clip plane where the eye is on the side that is cut off.
+        let cut = |solid: Polyhedron, plane: &HalfSpace| solid.clipped(*plane, Some(plane.height(rays.eye) < 0.0));
+        let solid = scene
+            .clip_planes()
+            .iter()
+            .fold(Polyhedron::cuboid(half, rays.eye), cut)
+            .clipped(near, Some(true))
+            .clipped(through_eye(GUARD * half_width * basis.forward - basis.right), None)
+            .clipped(through_eye(GUARD * half_width * basis.forward + basis.right), None)
+            .clipped(through_eye(GUARD * half_height * basis.forward - basis.up), None)
+            .clipped(through_eye(GUARD * half_height * basis.forward + basis.up), None);
         let project = |front: bool| -> Vec<[f32; 3]> {
             let clip = |p: DVec3| {
                 let arm = p - rays.eye;
@@ -140,7 +145,7 @@ fn covered(clip: &[[f32; 3]], size: [u32; 2]) -> Region {
 }
 
 fn longest_samples(scene: &Scene, rays: &ViewRays, region: Region) -> u32 {
-    let longest = longest_ray(rays, 0.5 * scene.field.extent(), region);
+    let longest = longest_ray(rays, 0.5 * scene.field.extent(), scene.clip_planes(), region);
     let sampling = &scene.settings.sampling;
     let steps = longest / (sampling.step * scene.field.finest());
     (steps - sampling.offset.steps()).ceil().max(0.0) as u32

@@ -1,10 +1,12 @@
 //! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
 
 mod bundle;
+mod planes;
 mod polygons;
 mod slice;
 
 pub use bundle::Bundle;
+pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
 pub use slice::Slice;
 

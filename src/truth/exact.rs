@@ -37,7 +37,8 @@ use self::met::Meeting;
 use self::panel::{Medium, Segment};
 use crate::math::interpolate::nearest;
 use crate::math::opacity::composite;
-use crate::math::ray::{ViewRays, box_interval};
+use crate::math::polyhedron::HalfSpace;
+use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::mesh::DividedRay;
 use crate::scene::settings::Filter;
@@ -53,6 +54,8 @@ pub struct ExactIntegrator<'a> {
     projection: &'static Projection,
     /// Polygons that rays meet, and how many transparent ones show.
     polygons: Option<(&'a Polygons, u32)>,
+    /// Half spaces that keep what is in them.
+    planes: &'a [HalfSpace],
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
 }
@@ -88,7 +91,8 @@ struct Light {
 
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
-        Self { field, medium: Absorber::new(transfer), projection: &COMPOSITE, polygons: None, nearest: false }
+        let medium = Absorber::new(transfer);
+        Self { field, medium, projection: &COMPOSITE, polygons: None, planes: &[], nearest: false }
     }
 
     /// Of a scene, by its projection: its field between voxels is what its filter makes of it.
@@ -97,7 +101,8 @@ impl<'a> ExactIntegrator<'a> {
         let projection = projection::of(&scene.settings);
         let polygons =
             Some((&*scene.polygons, scene.settings.layers.most)).filter(|(polygons, _)| !polygons.is_empty());
-        Self { nearest, projection, polygons, ..Self::new(&scene.field, &scene.transfer) }
+        let planes = scene.clip_planes();
+        Self { nearest, projection, polygons, planes, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -144,7 +149,7 @@ impl<'a> ExactIntegrator<'a> {
                     let between = |enter: f64, leave: f64| {
                         self.ray(rays.eye + enter * direction, direction / stretch, (leave - enter) * stretch)
                     };
-                    let whole = box_interval(rays.eye, direction, half, rays.near);
+                    let whole = cut_interval(rays.eye, direction, half, rays.near, self.planes);
                     match self.polygons {
                         None => whole.map_or([0.0; 4], |(enter, leave)| between(enter, leave)),
                         Some((polygons, most)) => {

@@ -1,13 +1,12 @@
 //! Twin of `glsl/direction.frag`: direction and length of the ray [KW03 §2.1, pass 2].
 
 use super::{Effect, Pixel, Twin, stored};
-use crate::math::ray::box_interval;
 
 /// Fills `direction` and `length`, and sees whether f32 can tell the number of samples.
 pub fn direction(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let direction = twin.rays.direction(pixel.column, pixel.row);
     let extent = twin.scene.field.extent();
-    if let Some((_, leave)) = box_interval(twin.rays.eye, direction, 0.5 * extent, twin.rays.near) {
+    if let Some((_, leave)) = twin.scene.interval(&twin.rays, direction) {
         let exit = twin.rays.eye + leave * direction;
         let way = exit - (pixel.entry - 0.5) * extent;
         // A ray so short that its ends are stored as one point has no direction.

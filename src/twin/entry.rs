@@ -3,13 +3,12 @@
 use glam::DVec3;
 
 use super::{Effect, Pixel, Twin, stored};
-use crate::math::ray::box_interval;
 
 /// Fills `entry`, texture coordinates. A pixel whose ray misses keeps the clear value.
 pub fn entry(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let direction = twin.rays.direction(pixel.column, pixel.row);
     let extent = twin.scene.field.extent();
-    if let Some((enter, _)) = box_interval(twin.rays.eye, direction, 0.5 * extent, twin.rays.near) {
+    if let Some((enter, _)) = twin.scene.interval(&twin.rays, direction) {
         let point = twin.rays.eye + enter * direction;
         pixel.entry = stored(point / extent + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
     }

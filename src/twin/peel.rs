@@ -1,7 +1,6 @@
 //! Twin of `glsl/peel.frag`, which peels nothing: the surfaces that a ray meets, in their order.
 
 use super::{Effect, Pixel, Surface, Twin};
-use crate::math::ray::box_interval;
 use crate::scene::mesh::{Cut, Cuts};
 
 /// The nearest opaque surface.
@@ -34,8 +33,7 @@ impl Twin<'_> {
 
     fn surface(&self, pixel: &Pixel, cut: &Cut) -> Surface {
         let direction = self.rays.direction(pixel.column, pixel.row);
-        let half = 0.5 * self.scene.field.extent();
-        let enter = box_interval(self.rays.eye, direction, half, self.rays.near).map_or(0.0, |(enter, _)| enter);
+        let enter = self.scene.interval(&self.rays, direction).map_or(0.0, |(enter, _)| enter);
         Surface {
             steps: (cut.crossing.depth - enter) * direction.length() / self.step_length(),
             color: self.scene.polygons.lit(direction, &cut.crossing),

@@ -21,7 +21,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 30] = [
+const KINDS: [(&str, Change); 33] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -86,6 +86,13 @@ const KINDS: [(&str, Change); 30] = [
     ("what is behind the first surface of a box", |s| {
         (s.clips, s.meshes) = (vec![clip(0.8, Keep::Thesis)], vec![across(0.5)]);
     }),
+    ("planes", |s| s.clips = vec![plane([1.0, 0.2, 0.1, 0.15]), plane([-0.3, 0.9, -0.2, 0.3])]),
+    ("a plane that cuts nothing off", |s| s.clips = vec![plane([0.0, 1.0, 0.0, 0.7])]),
+    ("a plane, meshes and clip geometry", |s| {
+        s.clips = vec![clip(0.9, Keep::Inside), plane([0.3, -0.2, -1.0, 0.1])];
+        (s.meshes, s.layers.most) = (vec![cuboid(0.5, 0.4), across(1.0)], 4);
+        (s.sampling.last, s.sampling.offset) = (Last::Partial, Offset::Midpoint);
+    }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
         s.sampling.last = Last::Partial;
@@ -114,6 +121,10 @@ fn across(opacity: f64) -> MeshSettings {
 fn clip(side: f64, keep: Keep) -> ClipSettings {
     let MeshSettings { builtin, rotate, .. } = cuboid(side, 0.0);
     ClipSettings { builtin, keep, scale: side, rotate, ..ClipSettings::default() }
+}
+
+fn plane(plane: [f64; 4]) -> ClipSettings {
+    ClipSettings { plane: Some(plane), ..ClipSettings::default() }
 }
 
 /// A value that few voxels of the volume have.

@@ -43,6 +43,14 @@ fn layered(method: MethodName, form: Option<Form>) -> Plan {
     plan(&scene(&settings), form).unwrap()
 }
 
+/// With a clip plane that the eye is cut off by, and a mesh.
+fn cut(method: MethodName, form: Option<Form>) -> Plan {
+    let mut settings = settings(method);
+    settings.clips = vec![ClipSettings { plane: Some([0.0, 0.5, -1.0, 0.1]), ..ClipSettings::default() }];
+    settings.meshes = vec![MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() }];
+    plan(&scene(&settings), form).unwrap()
+}
+
 /// By early z, with clip geometry around the eye, and with a mesh where it keeps what is outside.
 fn clipped(keep: Keep, partial: PartialSegments, form: Option<Form>) -> Plan {
     let mut settings = settings(method::RC_ERT.name());
@@ -110,6 +118,8 @@ pub fn cases() -> Vec<Case> {
     ] {
         cases.push(Case { name, plan: clipped(keep, partial, form(Ztest, Fragdepth)) });
     }
+    let planes = cut(method::NN_OMNI.name(), form(Bounds, Fragdepth));
+    cases.push(Case { name: "nn-omni_bounds_fragdepth_planes", plan: planes });
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases
 }

@@ -2,7 +2,6 @@
 
 use crate::error::Result;
 use crate::math::opacity::corrected_opacity;
-use crate::math::ray::box_interval;
 use crate::read;
 use crate::scene::settings::{Filter, Last, MethodName, Settings, VolumeTexture};
 use crate::scene::{Scene, Volume};
@@ -141,7 +140,7 @@ impl StabilityCase {
 pub fn beer(scene: &Scene, [column, row]: [u32; 2], color: [f64; 3], opacity: f64, steps: Option<f64>) -> [f64; 4] {
     let Ok(rays) = scene.camera.rays(scene.settings.image.size) else { return [0.0; 4] };
     let direction = rays.direction(column, row);
-    let Some((enter, leave)) = box_interval(rays.eye, direction, 0.5 * scene.field.extent(), rays.near) else {
+    let Some((enter, leave)) = scene.interval(&rays, direction) else {
         return [0.0; 4];
     };
     let step = scene.settings.sampling.step;

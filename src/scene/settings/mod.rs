@@ -35,7 +35,7 @@ use crate::error::Result;
 pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
-pub use clip::ClipSettings;
+pub use clip::{ClipOptions, ClipSettings};
 pub use image::Accumulate;
 pub use key::Key;
 pub use layers::PartialSegments;
@@ -71,12 +71,15 @@ macro_rules! sections {
                 #[command(flatten)]
                 pub $name: $options,
             )*
+            #[command(flatten)]
+            pub clips: ClipOptions,
         }
 
         impl SettingsOptions {
             /// Writes the options that were given over `settings`.
             pub fn apply(&self, settings: &mut Settings) {
                 $(self.$name.apply(&mut settings.$name);)*
+                self.clips.apply(&mut settings.clips);
             }
         }
 

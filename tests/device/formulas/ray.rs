@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use depthleap::math::ray::{ViewRays, box_interval};
+use depthleap::math::polyhedron::HalfSpace;
+use depthleap::math::ray::{ViewRays, box_interval, cut_interval};
 use depthleap::scene::{Camera, Scene};
-use depthleap::shared::Frame;
-use depthleap::vulkan::Device;
+use depthleap::shared::{ClipPlane, Frame};
+use depthleap::vulkan::{Bound, Buffer, BufferInfo, Device, Place, vk};
 use glam::DVec3;
 
 use super::kit::{Evaluator, Random, Setup, Worst};
@@ -13,7 +14,12 @@ use super::scene;
 use crate::harness::{Test, tests};
 
 pub fn all() -> Vec<Test> {
-    tests![interval_is_its_twin, points_on_faces_are_exact, texture_coordinates_are_their_twins]
+    tests![
+        interval_is_its_twin,
+        planes_cut_as_in_the_twin,
+        points_on_faces_are_exact,
+        texture_coordinates_are_their_twins
+    ]
 }
 
 /// The interval's ends, then for each axis the coordinate at both; double-floats.
@@ -101,6 +107,64 @@ fn interval_is_its_twin(device: &Arc<Device>) {
     }
     assert!(hits > 5000 && misses > 5000, "{hits} hits, {misses} misses");
     worst.assert(10_000);
+}
+
+/// One plane, some through the box, some through the eye.
+fn planes_cut_as_in_the_twin(device: &Arc<Device>) {
+    let evaluator = Evaluator::new(device, "ray.comp:PLANES", &[]);
+    let mut random = Random(43);
+    let mut worst = Worst::default();
+    let (mut cut, mut misses) = (0, 0);
+    for (i, (scene, camera)) in views().into_iter().enumerate() {
+        let rays = camera.rays(SIZE).unwrap();
+        let rays = ViewRays { near: f64::from(rays.near as f32), ..rays };
+        let mut component = || random.between(-1.0, 1.0);
+        let normal = DVec3::new(component(), component(), component()).normalize();
+        let distance = if i % 4 == 0 { normal.dot(rays.eye) } else { 0.3 * component() };
+        let plane = HalfSpace { normal, distance };
+        let storage = Buffer::new(
+            device,
+            BufferInfo {
+                name: "clip planes".to_owned(),
+                size: size_of::<ClipPlane>() as u64,
+                usage: vk::BufferUsageFlags::STORAGE_BUFFER,
+                place: Place::Upload,
+            },
+        )
+        .unwrap();
+        storage.write(0, bytemuck::bytes_of(&ClipPlane::new(&plane, &rays))).unwrap();
+        let frame = Some(Frame::new(&scene, &rays, 1, [0; 2]));
+        let pixels: Vec<[u32; 2]> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])).collect();
+        let arguments: Vec<[f32; 4]> =
+            pixels.iter().map(|&[x, y]| [x as f32 + 0.5, y as f32 + 0.5, 0.0, 0.0]).collect();
+        let setup = Setup { frame, resources: vec![("clip_planes", Bound::Storage(&storage))] };
+        let results: Vec<Results> = evaluator.run(&setup, &arguments);
+        let half = 0.5 * scene.field.extent();
+        for (&[x, y], results) in pixels.iter().zip(results) {
+            let direction = rays.direction(x, y);
+            let [enter_high, enter_low, leave_high, leave_low] = results[0];
+            let (enter, leave) = (joined(enter_high, enter_low), joined(leave_high, leave_low));
+            let told = (enter < leave).then_some((enter, leave));
+            // As for the box: a rise over the plane is a component of the direction, and depths are up to 5 where they count.
+            let smallest = direction.abs().min_element().min(normal.dot(direction).abs());
+            let allowed = 5.0 * 2_f64.powi(-42) / smallest.max(1e-9);
+            match (told, cut_interval(rays.eye, direction, half, rays.near, &[plane])) {
+                (Some(told), Some(truth)) => {
+                    cut += u32::from(Some(truth) != box_interval(rays.eye, direction, half, rays.near));
+                    let what = || format!("{plane:?} of {} {direction}", rays.eye);
+                    worst.see(told.0, truth.0, allowed, what);
+                    worst.see(told.1, truth.1, allowed, what);
+                }
+                (None, None) => misses += 1,
+                // Along an edge of what is left, or a ray of the plane that goes through the eye.
+                _ => {
+                    assert!((enter - leave).abs() <= 2.0 * allowed || i % 4 == 0, "{plane:?} {} {direction}", rays.eye)
+                }
+            }
+        }
+    }
+    assert!(cut > 1000 && misses > 5000, "{cut} cut, {misses} misses");
+    worst.assert(4000);
 }
 
 fn points_on_faces_are_exact(device: &Arc<Device>) {

@@ -31,9 +31,7 @@ const SCENES: [(&str, Meshes); 12] = [
     ("in front", || vec![MeshSettings { scale: 0.2, translate: [0.1, 0.05, 0.9], ..mesh("box") }]),
     ("behind", || vec![MeshSettings { scale: 0.6, translate: [0.0, 0.0, -1.5], ..mesh("sphere:8") }]),
     ("beside", || vec![MeshSettings { scale: 0.3, translate: [0.8, 0.4, 0.0], ..mesh("sphere:8") }]),
-    (CROWDED, || {
-        (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()
-    }),
+    (CROWDED, || (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()),
     ("two faces in one plane", || {
         let faces = |color| MeshSettings { color, scale: 0.6, rotate: [0.0; 3], ..mesh("box") };
         vec![faces([0.9, 0.1, 0.1]), faces([0.1, 0.1, 0.9])]

@@ -1,0 +1,53 @@
+//! Clip planes [Thesis §3.1.2], which cut the interval of a ray before anything else looks at it.
+
+use glam::DVec3;
+
+use super::Scene;
+use crate::math::polyhedron::HalfSpace;
+use crate::math::ray::{ViewRays, cut_interval};
+
+/// Clip planes at the most, as many as graphics libraries promise.
+pub const MOST_PLANES: usize = 6;
+
+/// The clip planes of a scene, in the volume's axes, as the half spaces that they keep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClipPlanes {
+    /// Those that cut something off the volume come first.
+    all: Vec<HalfSpace>,
+    cutting: usize,
+}
+
+impl ClipPlanes {
+    /// Of a volume whose box is [-half, half].
+    pub fn new(planes: impl IntoIterator<Item = HalfSpace>, half: DVec3) -> Self {
+        // The corner that lies deepest below the plane.
+        let cuts = |plane: &HalfSpace| plane.height(-half * plane.normal.signum()) < 0.0;
+        let (mut all, others): (Vec<_>, Vec<_>) = planes.into_iter().partition(cuts);
+        let cutting = all.len();
+        all.extend(others);
+        Self { all, cutting }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[HalfSpace] {
+        &self.all
+    }
+
+    /// Those that cut something off the volume.
+    pub fn cutting(&self) -> &[HalfSpace] {
+        &self.all[..self.cutting]
+    }
+}
+
+impl Scene {
+    /// The clip planes that its frames know: those that cut something off the volume, without the planner all.
+    pub fn clip_planes(&self) -> &[HalfSpace] {
+        if self.settings.method.planner { self.planes.cutting() } else { self.planes.all() }
+    }
+
+    /// The depths between which `rays.eye + depth * direction` lies inside the volume's box and all clip planes, and beyond the
+    /// near plane.
+    pub fn interval(&self, rays: &ViewRays, direction: DVec3) -> Option<(f64, f64)> {
+        cut_interval(rays.eye, direction, 0.5 * self.field.extent(), rays.near, self.clip_planes())
+    }
+}

@@ -1,0 +1,24 @@
+//! What shaders know of clip planes.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::double_float;
+use crate::math::polyhedron::HalfSpace;
+use crate::math::ray::ViewRays;
+
+/// `ClipPlane` of `glsl/shared/ray.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ClipPlane {
+    /// The height of the eye over the plane, and what base, right and down of the view's rays rise by over it: high parts, low
+    /// parts.
+    pub heights: [[f32; 4]; 2],
+}
+
+impl ClipPlane {
+    pub fn new(plane: &HalfSpace, rays: &ViewRays) -> Self {
+        let rise = |way| plane.normal.dot(way);
+        let heights = [plane.height(rays.eye), rise(rays.base), rise(rays.right), rise(rays.down)].map(double_float);
+        Self { heights: [0, 1].map(|part| heights.map(|height| height[part])) }
+    }
+}
