@@ -102,7 +102,7 @@ fn the_thesis_cuts_in_front_of_the_first_surface_and_hides_meshes_there() {
     let (behind, inside) = (by(Keep::Thesis), by(Keep::Inside));
     let (first, within, whole) = (depths(&behind), depths(&inside), depths(&scene(Vec::new())));
     let rays = behind.camera.rays(SIZE).unwrap();
-    let uncovered = behind.polygons.uncovered(&rays, SIZE, 0.5 * behind.field.extent());
+    let uncovered = behind.polygons.uncovered(&rays, SIZE, |direction| behind.interval(&rays, direction).is_some());
     let mut missed = 0;
     for i in 0..whole.len() {
         let covered = within[i] > 0.0;

@@ -18,8 +18,8 @@ mod random;
 const SIZE: [u32; 2] = [40, 30];
 
 fn settings(planes: &[[f64; 4]]) -> Settings {
-    let mut settings = Settings::default();
-    settings.clips = planes.iter().map(|plane| ClipSettings { plane: Some(*plane), ..Default::default() }).collect();
+    let clip = |plane: &[f64; 4]| ClipSettings { plane: Some(*plane), ..ClipSettings::default() };
+    let mut settings = Settings { clips: planes.iter().map(clip).collect(), ..Settings::default() };
     settings.volume.builtin = Some("constant:16".to_owned());
     settings.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.2]]);
     settings.image.size = SIZE;

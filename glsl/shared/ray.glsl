@@ -24,8 +24,8 @@ struct ClipPlane {
 };
 
 layout(set = 0, binding = 18, std430) readonly buffer ClipPlanes {
-    ClipPlane clip_planes[];
-};
+    ClipPlane planes[];
+} clip_planes;
 #endif
 
 // Depths between which the ray is inside the box, beyond the near plane and where clip planes keep it: enter and leave, and the
@@ -40,9 +40,9 @@ struct Interval {
 #ifdef PLANES
 // Cuts the interval at all clip planes.
 void cut_at_planes(inout Interval interval, vec2 pixel) {
-    for (uint i = 0u; i < clip_planes.length(); ++i) {
-        vec4 high = clip_planes[i].heights[0];
-        vec4 low = clip_planes[i].heights[1];
+    for (uint i = 0u; i < clip_planes.planes.length(); ++i) {
+        vec4 high = clip_planes.planes[i].heights[0];
+        vec4 low = clip_planes.planes[i].heights[1];
         vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(high.z, low.z));
         vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(high.w, low.w));
         vec2 rise = df_add(vec2(high.y, low.y), df_add(along_x, along_y));

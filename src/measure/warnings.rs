@@ -12,7 +12,7 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
     let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
     if !known_empty && picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
         warnings.push(
-            match scene.polygons.clips() {
+            match scene.settings.clips[..] {
                 [] => "the picture is empty: what shows lies out of view or between samples; try another view or a smaller --step",
                 _ => "the picture is empty: what shows is clipped, out of view or between samples; try another [[clip]] or view",
             }
@@ -47,7 +47,9 @@ fn layers_left(scene: &Scene, plan: &Plan) -> Option<String> {
 
 /// That clip geometry which cuts in front of its first surface does not cover the volume.
 fn uncovered(scene: &Scene, plan: &Plan) -> Option<String> {
-    let pixels = scene.polygons.uncovered(&plan.view.rays, plan.view.size, 0.5 * scene.field.extent());
+    let rays = &plan.view.rays;
+    let meets = |direction| scene.interval(rays, direction).is_some();
+    let pixels = scene.polygons.uncovered(rays, plan.view.size, meets);
     (pixels > 0).then(|| {
         format!(
             "clip geometry does not cover the volume in {pixels} {} of its box, where nothing of the volume is drawn; make it \

@@ -37,10 +37,27 @@ fn clip_geometry_that_does_not_cover_the_volume_comes_with_a_warning() {
 }
 
 #[test]
+fn planes_come_from_scene_files_and_options() {
+    let place = driverless();
+    place.file("a.toml", scene("[[clip]]\nplane = [0, 1, 0, 0.1]\n"));
+    assert_eq!(place.done(&format!("render a.toml {LOOK} -o a.png")).err.matches("warning:").count(), 0);
+    let told = place.done(&format!("render a.toml {LOOK} --clip-plane 0,-1,0,-0.2 -o a.png")).err;
+    assert!(told.contains("the picture is empty: clip planes cut off all"), "{told}");
+    let json = place.done(&format!("render a.toml {LOOK} --clip-plane=-1,0,0,0.3 -o a.png --json -")).out;
+    let settings = serde_json::from_slice::<serde_json::Value>(&json).unwrap()["settings"]["clip"].take();
+    let planes: Vec<_> = settings.as_array().unwrap().iter().map(|clip| clip["plane"][0].as_f64().unwrap()).collect();
+    assert_eq!(planes, [0.0, -1.0]);
+}
+
+#[test]
 fn nothing_is_written_where_geometry_is_wrong() {
     let place = driverless();
     for (rest, says) in [
         ("[[mesh]]\npath = \"none.ply\"\n", "none.ply"),
+        ("[[clip]]\nplane = [0, 0, 0, 1]\n", "a normal that leads nowhere"),
+        ("[[clip]]\nplane = [0, 0, 1]\n", "3 entries where there have to be 4"),
+        ("[[clip]]\nplane = [0, 0, 1, 0]\nbuiltin = \"box\"\n", "stands beside other keys"),
+        (&"[[clip]]\nplane = [0, 0, 1, 0]\n".repeat(7), "has 7 planes"),
         ("[[clip]]\nbuiltin = \"spheer\"\n", "did you mean `sphere`"),
         ("[[clip]]\nbuiltin = \"box\"\ntransform = [[1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]]\n", "determinant"),
     ] {

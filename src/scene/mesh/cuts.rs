@@ -132,12 +132,12 @@ impl Polygons {
         (0..size[0] * size[1]).into_par_iter().map(pixel).collect()
     }
 
-    /// Of how many pixels the ray meets the box [-half, half], but no clip geometry, which cuts in front of its first surface.
-    pub fn uncovered(&self, rays: &ViewRays, size: [u32; 2], half: DVec3) -> usize {
+    /// Of how many pixels the ray `meets` the volume, by its direction, but no clip geometry, which cuts in front of its first
+    /// surface.
+    pub fn uncovered(&self, rays: &ViewRays, size: [u32; 2], meets: impl Fn(DVec3) -> bool + Sync) -> usize {
         let pixel = |i: u32| {
             let at = [i % size[0], i / size[0]];
-            crate::math::ray::box_interval(rays.eye, rays.direction(at[0], at[1]), half, rays.near).is_some()
-                && self.cuts(&self.crossings(rays, at, 0.0).list).begin.is_none()
+            meets(rays.direction(at[0], at[1])) && self.cuts(&self.crossings(rays, at, 0.0).list).begin.is_none()
         };
         if self.cuts_in_front() { (0..size[0] * size[1]).into_par_iter().filter(|i| pixel(*i)).count() } else { 0 }
     }

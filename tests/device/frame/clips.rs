@@ -3,7 +3,7 @@
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{ClipSettings, Last, MeshSettings, Offset};
 
-use super::layers::{held, mesh};
+use super::layers::{held, mesh, most_layers, view_for};
 use super::scenes::{exactly, scene};
 use crate::harness::{Test, test};
 
@@ -61,14 +61,19 @@ pub fn tests() -> Vec<Test> {
                     exactly(settings);
                     (settings.clips, settings.meshes) = geometry();
                     settings.image.size = [62, 50];
-                    (settings.sampling.last, settings.layers.most) = (last, 8);
+                    settings.sampling.last = last;
                     if last == Last::Partial {
                         (settings.sampling.offset, settings.sampling.step) = (Offset::Midpoint, 0.8);
                     }
                 })
             };
             let kind = if last == Last::Full { "whole samples" } else { "parts of samples" };
-            tests.push(test(&format!("clips::{name}::{kind}"), move |device| held(device, &scene())));
+            tests.push(test(&format!("clips::{name}::{kind}"), move |device| {
+                let mut scene = scene();
+                // As many as there are, and one that ends the peeling.
+                scene.settings.layers.most = most_layers(&scene) + 1;
+                held(device, &scene, view_for(last));
+            }));
         }
     }
     tests

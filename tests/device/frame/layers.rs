@@ -18,28 +18,30 @@ use crate::harness::{Test, test};
 
 type Meshes = fn() -> Vec<MeshSettings>;
 
-/// The scene with the most layers: two of each shell.
-const CROWDED: &str = "eight shells in each other";
+/// Layers at the most of scenes whose segments are drawn apart: in the crowded one some surfaces lie behind.
+const MOST_APART: u32 = 8;
 
-/// What stands where; of large faces, since a rasteriser may see another one at each edge.
-const SCENES: [(&str, Meshes); 12] = [
-    ("a sphere", || vec![mesh("sphere:8")]),
-    ("meshes that cut each other", || {
+/// What stands where, and how many layers it has; of large faces, since a rasteriser may see another one at each edge.
+const SCENES: [(&str, u32, Meshes); 12] = [
+    ("a sphere", 2, || vec![mesh("sphere:8")]),
+    ("meshes that cut each other", 6, || {
         vec![mesh("torus:7"), MeshSettings { color: [0.1, 0.2, 0.9], scale: 0.7, ..mesh("box") }]
     }),
-    ("across the faces of the box", || vec![MeshSettings { scale: 1.3, translate: [0.2, 0.1, 0.0], ..mesh("box") }]),
-    ("in front", || vec![MeshSettings { scale: 0.2, translate: [0.1, 0.05, 0.9], ..mesh("box") }]),
-    ("behind", || vec![MeshSettings { scale: 0.6, translate: [0.0, 0.0, -1.5], ..mesh("sphere:8") }]),
-    ("beside", || vec![MeshSettings { scale: 0.3, translate: [0.8, 0.4, 0.0], ..mesh("sphere:8") }]),
-    (CROWDED, || (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()),
-    ("two faces in one plane", || {
+    ("across the faces of the box", 2, || vec![MeshSettings { scale: 1.3, translate: [0.2, 0.1, 0.0], ..mesh("box") }]),
+    ("in front", 2, || vec![MeshSettings { scale: 0.2, translate: [0.1, 0.05, 0.9], ..mesh("box") }]),
+    ("behind", 2, || vec![MeshSettings { scale: 0.6, translate: [0.0, 0.0, -1.5], ..mesh("sphere:8") }]),
+    ("beside", 2, || vec![MeshSettings { scale: 0.3, translate: [0.8, 0.4, 0.0], ..mesh("sphere:8") }]),
+    ("eight shells in each other", 16, || {
+        (1..=8).map(|i| MeshSettings { scale: 0.12 * f64::from(i), opacity: 0.15, ..mesh("box") }).collect()
+    }),
+    ("two faces in one plane", 4, || {
         let faces = |color| MeshSettings { color, scale: 0.6, rotate: [0.0; 3], ..mesh("box") };
         vec![faces([0.9, 0.1, 0.1]), faces([0.1, 0.1, 0.9])]
     }),
-    ("seen from inside", || vec![MeshSettings { scale: 6.0, ..mesh("box") }]),
-    ("through the eye", || vec![MeshSettings { scale: 1.0, translate: [0.0, 0.0, 1.91], ..mesh("sphere:6") }]),
-    ("opaque", || vec![MeshSettings { opacity: 1.0, scale: 0.5, ..mesh("sphere:8") }]),
-    ("an opaque one among transparent ones", || {
+    ("seen from inside", 1, || vec![MeshSettings { scale: 6.0, ..mesh("box") }]),
+    ("through the eye", 1, || vec![MeshSettings { scale: 1.0, translate: [0.0, 0.0, 1.91], ..mesh("sphere:6") }]),
+    ("opaque", 0, || vec![MeshSettings { opacity: 1.0, scale: 0.5, ..mesh("sphere:8") }]),
+    ("an opaque one among transparent ones", 2, || {
         vec![mesh("box"), MeshSettings { opacity: 1.0, scale: 0.3, translate: [0.2, 0.0, 0.1], ..mesh("sphere:8") }]
     }),
 ];
@@ -58,7 +60,7 @@ pub fn mesh(builtin: &str) -> MeshSettings {
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for (name, meshes) in SCENES {
+    for (name, layers, meshes) in SCENES {
         for last in [Last::Full, Last::Partial] {
             let scene = move || {
                 scene("shells:24", "ramp", |settings| {
@@ -66,7 +68,7 @@ pub fn tests() -> Vec<Test> {
                     settings.meshes = meshes();
                     settings.image.size = [62, 50];
                     // As many as there are, and one that ends the peeling.
-                    settings.layers.most = if name == CROWDED { 17 } else { 7 };
+                    settings.layers.most = layers + 1;
                     settings.sampling.last = last;
                     if last == Last::Partial {
                         (settings.sampling.offset, settings.sampling.step) = (Offset::Midpoint, 0.8);
@@ -74,11 +76,16 @@ pub fn tests() -> Vec<Test> {
                 })
             };
             let kind = if last == Last::Full { "whole samples" } else { "parts of samples" };
-            tests.push(test(&format!("layers::{name}::{kind}"), move |device| held(device, &scene())));
+            tests.push(test(&format!("layers::{name}::{kind}"), move |device| {
+                let scene = scene();
+                assert_eq!(most_layers(&scene), layers, "layers of the scene");
+                held(device, &scene, view_for(last));
+            }));
         }
     }
-    for (name, meshes) in [SCENES[0], SCENES[1], SCENES[6], SCENES[11]] {
-        tests.push(test(&format!("layers::{name}::partial segments apart"), move |device| apart(device, meshes)));
+    for (name, layers, meshes) in [SCENES[0], SCENES[1], SCENES[6], SCENES[11]] {
+        let most = (layers + 1).min(MOST_APART);
+        tests.push(test(&format!("layers::{name}::partial segments apart"), move |device| apart(device, meshes, most)));
     }
     tests.push(test("layers::partial_segments_apart_in_other_formats", apart_elsewhere));
     tests.push(test("layers::ten_thousand_triangles_in_a_pixel", crowded));
@@ -87,12 +94,28 @@ pub fn tests() -> Vec<Test> {
     tests
 }
 
+/// Whole samples are seen head-on and parts of samples aslant, so that each scene is seen from both places.
+pub fn view_for(last: Last) -> &'static [(&'static str, [f64; 3], [f64; 3])] {
+    if last == Last::Full { &VIEWS[..1] } else { &VIEWS[1..2] }
+}
+
+/// The most surfaces that divide one ray.
+pub fn most_layers(scene: &Scene) -> u32 {
+    let of = |view| {
+        let scene = seen(scene, view);
+        let size = scene.settings.image.size;
+        let rays = scene.camera.rays(size).expect("a camera");
+        scene.polygons.lacking(&rays, size, 0).into_iter().max().unwrap_or(0)
+    };
+    VIEWS.into_iter().take(2).map(of).max().unwrap_or(0)
+}
+
 /// Methods that cover all ways to end and to skip give their twins' pictures in every form, and one picture.
-pub fn held(device: &Arc<Device>, scene: &Scene) {
+pub fn held(device: &Arc<Device>, scene: &Scene, views: &[(&str, [f64; 3], [f64; 3])]) {
     let mut stage = Stage::new(device);
     let (mut largest, mut undecided) = (0.0f64, 0);
-    for view in VIEWS.into_iter().take(2) {
-        let scene = seen(scene, view);
+    for view in views {
+        let scene = seen(scene, *view);
         let mut rule: Option<Shot> = None;
         for row in shapes() {
             let scene = by(&scene, row.name());
@@ -121,9 +144,9 @@ pub fn held(device: &Arc<Device>, scene: &Scene) {
 
 /// Segments that end at a surface, drawn in a pass of their own: the twin's picture, and the one of segments drawn within their
 /// passes, bit for bit and with as many main fragments.
-fn apart(device: &Arc<Device>, meshes: Meshes) {
-    held(device, &apart_scene(meshes, |_| {}, PartialSegments::Apart));
-    same_apart(device, |partial| apart_scene(meshes, |_| {}, partial));
+fn apart(device: &Arc<Device>, meshes: Meshes, most: u32) {
+    held(device, &apart_scene(meshes, most, |_| {}, PartialSegments::Apart), &VIEWS[1..2]);
+    same_apart(device, |partial| apart_scene(meshes, most, |_| {}, partial));
 }
 
 /// The same where the format of the picture rounds so much that rays end a pass later, and where no ray ends early.
@@ -134,16 +157,16 @@ fn apart_elsewhere(device: &Arc<Device>) {
         |s| s.sampling.termination = 1.0,
     ];
     for change in changes {
-        same_apart(device, |partial| apart_scene(SCENES[11].1, change, partial));
+        same_apart(device, |partial| apart_scene(SCENES[11].2, 3, change, partial));
     }
-    held(device, &apart_scene(SCENES[11].1, changes[2], PartialSegments::Apart));
+    held(device, &apart_scene(SCENES[11].2, 3, changes[2], PartialSegments::Apart), &VIEWS[1..2]);
 }
 
-fn apart_scene(meshes: Meshes, change: fn(&mut Settings), partial: PartialSegments) -> Scene {
+fn apart_scene(meshes: Meshes, most: u32, change: fn(&mut Settings), partial: PartialSegments) -> Scene {
     scene("shells:24", "ramp", |settings| {
         exactly(settings);
         settings.meshes = meshes();
-        (settings.image.size, settings.layers.most) = ([62, 50], 8);
+        (settings.image.size, settings.layers.most) = ([62, 50], most);
         (settings.sampling.last, settings.layers.partial) = (Last::Partial, partial);
         change(settings);
     })
@@ -187,25 +210,25 @@ fn crowded(device: &Arc<Device>) {
             exactly(settings);
             let mesh = MeshSettings { path: Some(file.clone()), color: [0.3, 0.9, 0.4], opacity, ..Default::default() };
             settings.meshes = vec![mesh];
-            (settings.image.size, settings.layers.most, settings.sampling.passes) = ([20, 16], most, 12);
+            (settings.image.size, settings.layers.most, settings.sampling.passes) = ([12, 10], most, 12);
         })
     };
-    let transparent = of(0.02, 5);
+    let transparent = of(0.02, 3);
     let plan = plan(&transparent, None).expect("a plan");
-    let lacking = transparent.polygons.lacking(&plan.view.rays, plan.view.size, 5);
-    assert_eq!(lacking.iter().max(), Some(&(TRIANGLES as u32 - 5)), "as many behind each other");
-    held(device, &transparent);
-    held(device, &of(1.0, 5));
+    let lacking = transparent.polygons.lacking(&plan.view.rays, plan.view.size, 3);
+    assert_eq!(lacking.iter().max(), Some(&(TRIANGLES as u32 - 3)), "as many behind each other");
+    held(device, &transparent, &VIEWS[..1]);
+    held(device, &of(1.0, 3), &VIEWS[..1]);
 }
 
 /// More layers than are peeled: the twin's picture all the same.
 fn fewer(device: &Arc<Device>) {
     let scene = scene("shells:24", "ramp", |settings| {
         exactly(settings);
-        settings.meshes = SCENES[6].1();
+        settings.meshes = SCENES[6].2();
         (settings.image.size, settings.layers.most) = ([62, 50], 2);
     });
-    held(device, &scene);
+    held(device, &scene, &VIEWS[..2]);
 }
 
 /// Main fragments are at most those without polygons, and one more for each segment that a surface cuts.

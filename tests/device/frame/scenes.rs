@@ -39,7 +39,7 @@ pub fn exactly(settings: &mut Settings) {
 }
 
 /// Eye and target of the views, by name.
-pub const VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
+pub static VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
     ("head-on", [0.0, 0.0, 1.91], [0.0; 3]),
     ("rotated", [0.8974, 0.6533, 1.5544], [0.0; 3]),
     // Rays of several octants, and parallel to faces.

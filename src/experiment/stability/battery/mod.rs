@@ -2,6 +2,7 @@
 
 mod depth;
 mod optical;
+mod planes;
 mod projection;
 mod sampling;
 mod transfer;
@@ -18,6 +19,7 @@ pub fn battery() -> Vec<StabilityCase> {
         transfer::cases(),
         values::cases(),
         views::cases(),
+        planes::cases(),
         sampling::cases(),
         depth::cases(),
         projection::cases(),
