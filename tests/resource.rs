@@ -10,7 +10,7 @@ use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::resource::{self, RESOURCES, order};
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, Distance, MeshSettings};
+use depthleap::scene::settings::{Classification, ClipSettings, Distance, MeshSettings};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use depthleap::structure::Lookup;
@@ -37,7 +37,8 @@ fn scenes() -> Vec<Scene> {
         let mesh = |opacity| MeshSettings { builtin: Some("box".to_owned()), opacity, ..MeshSettings::default() };
         s.meshes = vec![mesh(0.5), mesh(1.0)];
     });
-    vec![scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons]
+    let cut = scene(|s| s.clips = vec![ClipSettings { plane: Some([0.0, 1.0, 0.0, 0.1]), ..ClipSettings::default() }]);
+    vec![scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons, cut]
 }
 
 fn hole_at_7(i: usize) -> f32 {

@@ -67,6 +67,15 @@ impl Test {
 /// Set for drivers on which real volumes show nothing that they do not show on another one, where they take minutes.
 const LEFT_OUT: &str = "DEPTHLEAP_NO_REAL_VOLUMES";
 
+/// Set for a driver that takes seconds for each form, where its forms without the bounds test show nothing that they do not show on
+/// others.
+const BOUNDS_ONLY: &str = "DEPTHLEAP_BOUNDS_FORMS";
+
+/// Whether tests that go over all forms leave those without the bounds test to other drivers.
+pub fn bounds_only() -> bool {
+    std::env::var_os(BOUNDS_ONLY).is_some()
+}
+
 /// A file of `../shared/data`, beside the checkout.
 pub fn data(file: &str) -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(file)
@@ -115,6 +124,11 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         Ok(device) => {
             let info = &device.info;
             eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
+            if bounds_only() {
+                eprintln!(
+                    "LEFT TO OTHER DRIVERS: forms without the bounds test, in most tests over all forms ({BOUNDS_ONLY})"
+                );
+            }
         }
         Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }

@@ -46,7 +46,7 @@ fn layered(method: MethodName, form: Option<Form>) -> Plan {
 /// With a clip plane that the eye is cut off by, and a mesh.
 fn cut(method: MethodName, form: Option<Form>) -> Plan {
     let mut settings = settings(method);
-    settings.clips = vec![ClipSettings { plane: Some([0.0, 0.5, -1.0, 0.1]), ..ClipSettings::default() }];
+    settings.clips = vec![ClipSettings { plane: Some([0.0, 0.5, -1.0, 0.4]), ..ClipSettings::default() }];
     settings.meshes = vec![MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() }];
     plan(&scene(&settings), form).unwrap()
 }

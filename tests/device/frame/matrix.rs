@@ -20,14 +20,14 @@ use depthleap::vulkan::{Device, vk};
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
 use super::law::trusted;
 use super::matrix_scenes;
-use super::scenes::{Shot, Stage, checked, forms};
+use super::scenes::{Shot, Stage, checked, forms, forms_here};
 use crate::harness::{Test, test};
 
 /// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
 const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthFormat::D16];
 
-/// Scenes that are drawn in every format: the only ones whose marks differ from each other, by their number, by what they say
-/// and by who writes them anew.
+/// Scenes that are drawn in every format of the depth buffer, and on every driver in every form: the only ones whose marks differ
+/// from each other, by their number, by what they say and by who writes them anew.
 const IN_EVERY_FORMAT: [&str; 5] = [
     "as it is",
     "many passes",
@@ -125,7 +125,8 @@ impl Runs<'_> {
         if !method.on_device {
             return difference(&rule.picture, &twin, SAME_SUM + stated(&scene, rule)).map(drop);
         }
-        let mut forms = forms(self.device, method.name());
+        let asked = if depths.len() > 1 { forms } else { forms_here };
+        let mut forms = asked(self.device, method.name());
         forms.retain(|form| trusted(self.device, method.name(), *form));
         let mut first = None;
         for form in forms {

@@ -15,6 +15,7 @@ use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 
 use super::matrix_scenes;
+use crate::harness::bounds_only;
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
 pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -68,6 +69,15 @@ pub fn forms(device: &Device, method: MethodName) -> Vec<Option<Form>> {
     let has = |form: &Option<Form>| device.info.depth_bounds || form.is_none_or(|form| form.cull != Cull::Bounds);
     let mut forms = method::find(method).map_or_else(Vec::new, matrix_scenes::forms);
     forms.retain(has);
+    forms
+}
+
+/// The forms that tests over many scenes draw in.
+pub fn forms_here(device: &Device, method: MethodName) -> Vec<Option<Form>> {
+    let mut forms = forms(device, method);
+    if bounds_only() && device.info.depth_bounds {
+        forms.retain(|form| form.is_none_or(|form| form.cull == Cull::Bounds));
+    }
     forms
 }
 
