@@ -1,5 +1,5 @@
-// Pass 1, entry point determination [KW03 §2.1, Thesis §5.2.2]: front faces of the box (with a cap where the
-// near plane cuts it), texture coordinates as colour.
+// Pass 1, entry point determination [KW03 §2.1, Thesis §5.2.2]: front faces of the box (with caps where
+// the near plane and clip planes cut it), texture coordinates as colour.
 //
 // Departure: the coordinates are those of the ray through the pixel's centre rather than interpolated from the
 // vertices, which rasterisers move to a raster of 1/256 pixel.

@@ -103,6 +103,10 @@ fn the_thesis_cuts_in_front_of_the_first_surface_and_hides_meshes_there() {
     let (first, within, whole) = (depths(&behind), depths(&inside), depths(&scene(Vec::new())));
     let rays = behind.camera.rays(SIZE).unwrap();
     let uncovered = behind.polygons.uncovered(&rays, SIZE, |direction| behind.interval(&rays, direction).is_some());
+    let half = ClipSettings { plane: Some([1.0, 0.0, 0.0, 0.0]), ..ClipSettings::default() };
+    let cut = scene(vec![clip("sphere:200", Keep::Thesis), half]);
+    let of_half = cut.polygons.uncovered(&rays, SIZE, |direction| cut.interval(&rays, direction).is_some());
+    assert!(0 < of_half && 2 * of_half < uncovered + 2 * SIZE[1] as usize, "{of_half} of {uncovered} pixels");
     let mut missed = 0;
     for i in 0..whole.len() {
         let covered = within[i] > 0.0;

@@ -213,10 +213,13 @@ fn a_view_that_is_cut_off_is_told() {
     for nothing in [[0.0, 1.0, 0.0, -0.6], [0.0, 0.0, 1.0, -4.0]] {
         let (passes, told) = warned(&[nothing]);
         assert_eq!(passes, 0);
-        assert!(told.len() == 1 && told[0].starts_with("the picture is empty: clip planes cut off all"), "{told:?}");
+        assert!(
+            told.len() == 1 && told[0].starts_with("the picture is empty: clip planes leave less than one sample"),
+            "{told:?}"
+        );
     }
     let (_, told) = warned(&[[1.0, 0.0, 0.0, -0.2], [-1.0, 0.0, 0.0, 0.1]]);
-    assert!(told[0].contains("clip planes cut off all"), "{told:?}");
+    assert!(told[0].contains("clip planes leave less"), "{told:?}");
     let (passes, told) = warned(&[[0.0, 1.0, 0.0, 0.0]]);
     assert!(passes > 0 && told.is_empty(), "{told:?}");
     // A camera that looks away is told as before.
@@ -230,11 +233,11 @@ fn a_view_that_is_cut_off_is_told() {
 fn what_is_no_plane_is_refused() {
     let said = |settings: &Settings| settings.check().map_or_else(|e| e.to_string(), |()| String::new());
     for (plane, problem) in [
-        ([0.0, 0.0, 0.0, 1.0], "a normal that leads nowhere"),
+        ([0.0, 0.0, 0.0, 1.0], "a normal of length 0"),
         ([f64::NAN, 0.0, 1.0, 1.0], "four finite numbers"),
         ([0.0, 0.0, 1.0, f64::INFINITY], "four finite numbers"),
         // A plane beyond all numbers.
-        ([0.0, 0.0, 1e-300, 1e300], "a normal that leads nowhere"),
+        ([0.0, 0.0, 1e-300, 1e300], "beyond all numbers"),
     ] {
         assert!(said(&settings(&[plane])).contains(problem), "{plane:?}: {}", said(&settings(&[plane])));
     }
@@ -252,6 +255,22 @@ fn what_is_no_plane_is_refused() {
     let mut thesis = settings(&[[0.0, 1.0, 0.0, 0.0]]);
     thesis.clips.push(mesh(Keep::Thesis));
     assert_eq!(said(&thesis), "");
+}
+
+#[test]
+fn a_plane_is_the_same_however_long_its_normal_is() {
+    let of = |plane: [f64; 4]| ClipSettings { plane: Some(plane), ..ClipSettings::default() }.half_space().unwrap();
+    let plane = [1.0, -2.0, 3.0, 0.5];
+    let rule = of(plane);
+    assert!((rule.normal.length() - 1.0).abs() < 1e-15 && (rule.distance + 0.5 / 14f64.sqrt()).abs() < 1e-15);
+    for scale in [1e-200, 1e200, 5e307, 1e-300] {
+        let found = of(plane.map(|number| number * scale));
+        assert!(found.normal.distance(rule.normal) < 1e-14, "{scale:e}: {found:?}");
+        assert!((found.distance - rule.distance).abs() < 1e-14, "{scale:e}: {found:?}");
+    }
+    // The least number there is.
+    let least = of([5e-324, 5e-324, 0.0, 5e-324]);
+    assert!((least.distance + 0.5f64.sqrt()).abs() < 1e-15, "{least:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-// Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs.
+// Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs, of the box at planes `cut_interval` there.
 // Needs frame.glsl and double_float.glsl. PLANES: the interval of a ray is cut at clip planes [Thesis §3.1.2].
 
 // Beyond every volume, in volume units.

@@ -102,9 +102,9 @@ pub fn scene_name(settings: &Settings) -> String {
         n => Some(format!("{n} {more}")),
     };
     let meshes = number(settings.meshes.len(), "a mesh", "meshes");
-    let cut = settings.clips.iter().filter(|clip| clip.plane.is_some()).count();
-    let planes = number(cut, "a clip plane", "clip planes");
-    let clips = number(settings.clips.len() - cut, "a clip mesh", "clip meshes");
+    let planes = settings.clips.iter().filter(|clip| clip.plane.is_some()).count();
+    let clips = number(settings.clips.len() - planes, "a clip mesh", "clip meshes");
+    let planes = number(planes, "a clip plane", "clip planes");
     let geometry: Vec<String> = [meshes, clips, planes].into_iter().flatten().collect();
     let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.

@@ -111,5 +111,5 @@ pub fn check(scene: &Scene) -> Result<()> {
         true => "shows values, which colours of polygons cannot be blended with",
         false => "shows a value of the whole ray, of which clip geometry leaves parts",
     };
-    Err(Error::usage(input, problem, "use composite, or leave out [[mesh]] and [[clip]]"))
+    Err(Error::usage(input, problem, "use composite, or leave out [[mesh]] and the tables [[clip]] with a mesh"))
 }

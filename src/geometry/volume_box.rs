@@ -7,7 +7,7 @@ use crate::part::geometry::{Geometry, Hits, Sample};
 use crate::resource;
 use crate::scene::Scene;
 
-/// Its front faces with the cap of the near plane: where rays enter.
+/// Its front faces with the caps of the near plane and of clip planes: where rays enter.
 pub static BOX_FRONT: Geometry = Geometry { name: "front faces", range: |_, view| 0..view.front.len() as u32, ..BOX };
 
 /// Its back faces: where rays leave.

@@ -1,5 +1,5 @@
-//! The volume's box as the rasteriser gets it: its faces, clipped by the view, with a cap where the near plane
-//! cuts it, so that a camera inside the volume works.
+//! The volume's box as the rasteriser gets it: its faces, clipped by the view, with caps where the near plane and clip planes cut
+//! it, so that a camera inside the volume works.
 
 use std::collections::HashMap;
 
@@ -56,7 +56,7 @@ impl Polyhedron {
         Self { corners, faces }
     }
 
-    /// What of it lies in `space`. With `cap`, the cut becomes a face, at the front where that is true.
+    /// What of it lies in `space`. `cap`: whether the cut becomes a face, and then whether rays enter by it.
     pub fn clipped(&self, space: HalfSpace, cap: Option<bool>) -> Self {
         let height: Vec<f64> = self.corners.iter().map(|&c| space.height(c)).collect();
         if height.iter().all(|&h| h >= 0.0) {

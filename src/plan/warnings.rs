@@ -18,7 +18,7 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
-    warnings.extend(plan.method.on_device.then(|| cut_off(scene, plan)).flatten());
+    warnings.extend(plan.method.on_device.then(|| out_of_format(scene, plan)).flatten());
     warnings
 }
 
@@ -51,10 +51,11 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
         let sides = field.extent().to_array().map(|side| format!("{side:.3}")).join(" x ");
-        if all_cut_off(scene) {
+        if cut_off(scene) {
             return Some(format!(
-                "the picture is empty: clip planes cut off all that the eye {eye:?} sees of the volume, which lies about 0,0,0 with \
-                 the sides {sides}; a plane [nx, ny, nz, d] keeps what has n . p + d >= 0: turn its signs, or give another d"
+                "the picture is empty: clip planes leave less than one sample of the volume on any ray from the eye {eye:?}; it lies \
+                 about 0,0,0 with the sides {sides}, and a plane [nx, ny, nz, d] keeps what has n . p + d >= 0: turn its signs, give \
+                 another d or a smaller --step"
             ));
         }
         return Some(format!(
@@ -100,10 +101,10 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     ))
 }
 
-/// Whether rays would meet the volume if it were not for clip planes.
-fn all_cut_off(scene: &Scene) -> bool {
+/// Whether rays would have samples if it were not for clip planes.
+fn cut_off(scene: &Scene) -> bool {
     let whole = Scene { planes: ClipPlanes::default(), ..scene.clone() };
-    !scene.clip_planes().is_empty() && View::new(&whole).is_ok_and(|view| view.longest_samples > 0)
+    View::new(&whole).is_ok_and(|view| view.longest_samples > 0)
 }
 
 /// That a clip mesh has no inside of its own.
@@ -155,7 +156,7 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
 }
 
 /// That values are shown which the format of the picture may not hold.
-fn cut_off(scene: &Scene, plan: &Plan) -> Option<String> {
+fn out_of_format(scene: &Scene, plan: &Plan) -> Option<String> {
     let values = projection::of(&scene.settings).values.as_ref()?;
     let (name, [least, greatest]) = match scene.settings.image.accumulate {
         Accumulate::Rgba8 => ("rgba8", [0.0, 1.0]),

@@ -1,9 +1,9 @@
 //! The longest ray of a view, by branch and bound: a picture of 65535 x 65535 pixels costs some ten thousand rays, not
 //! four thousand million.
 //!
-//! For all pixels of a tile the direction's components lie between those of its corners, and so do the depths at which
-//! rays enter and leave each slab of the box, and meet each clip plane. A tile whose bound is no longer than a ray already found is left out;
-//! the others are cut in four.
+//! For all pixels of a tile the direction's components lie between those of its corners, and so do the depths at which rays meet
+//! each face of the box and each clip plane; what lies between two of these is bounded as a whole, so that thin slabs are bounded
+//! well. A tile whose bound is no longer than a ray already found is left out; the others are cut in four.
 
 use glam::DVec3;
 
@@ -71,30 +71,55 @@ impl Solid<'_> {
         // The length of a vector is convex, so it is greatest at a corner.
         let steepest = directions.iter().map(|d| d.length()).fold(0.0, f64::max);
         let slack = ROUNDING * steepest;
-        let (mut enter, mut leave) = (self.rays.near, f64::INFINITY);
-        for axis in 0..3 {
-            let [low, high] = spread(directions.map(|d| d[axis]), slack);
-            if low <= 0.0 && high >= 0.0 {
-                // Some ray may run along the slab: it bounds nothing.
-                continue;
-            }
-            let faces = [-self.half[axis] - self.rays.eye[axis], self.half[axis] - self.rays.eye[axis]];
-            let depths = faces.map(|face| [face / low, face / high]);
-            let [first, last] = spread(depths.as_flattened().iter().copied(), 0.0);
-            (enter, leave) = (enter.max(first), leave.min(last));
-        }
-        for plane in self.planes {
-            let [low, high] = spread(directions.map(|d| plane.normal.dot(d)), slack * plane.normal.length());
-            let height = plane.height(self.rays.eye);
-            let [first, last] = spread([-height / low, -height / high], 0.0);
-            if low > 0.0 {
-                enter = enter.max(first);
-            } else if high < 0.0 {
-                leave = leave.min(last);
+        let (mut entering, mut leaving) = (Vec::new(), Vec::new());
+        for space in faces(self.half).iter().chain(self.planes) {
+            let rises = spread(directions.map(|d| space.normal.dot(d)), slack * space.normal.length());
+            let side = Side { space: *space, height: space.height(self.rays.eye), rises };
+            match rises {
+                [low, _] if low > 0.0 => entering.push(side),
+                [_, high] if high < 0.0 => leaving.push(side),
+                // Some ray may run along it: it bounds nothing.
+                _ => {}
             }
         }
+        let enter = entering.iter().map(|side| side.depths()[0]).fold(self.rays.near, f64::max);
+        let leave = leaving.iter().map(|side| side.depths()[1]).fold(f64::INFINITY, f64::min);
         let slack = ROUNDING * (enter.abs() + leave.abs());
-        ((leave - enter) + slack).max(0.0) * steepest * (1.0 + ROUNDING)
+        let pairs = entering.iter().flat_map(|front| leaving.iter().map(move |back| front.depth_to(back, &directions)));
+        pairs.fold((leave - enter) + slack, f64::min).max(0.0) * steepest * (1.0 + ROUNDING)
+    }
+}
+
+/// The six half spaces of the box [-half, half].
+fn faces(half: DVec3) -> [HalfSpace; 6] {
+    std::array::from_fn(|face| {
+        let (axis, sign) = (face / 2, if face % 2 == 0 { 1.0 } else { -1.0 });
+        HalfSpace { normal: sign * DVec3::AXES[axis], distance: -half[axis] }
+    })
+}
+
+/// A plane that all rays of a tile enter or leave by.
+struct Side {
+    space: HalfSpace,
+    /// Of the eye over it.
+    height: f64,
+    /// The least and the greatest that rays rise by over it in a unit of depth.
+    rises: [f64; 2],
+}
+
+impl Side {
+    /// The least and the greatest depth at which rays meet it.
+    fn depths(&self) -> [f64; 2] {
+        spread(self.rises.map(|rise| -self.height / rise), 0.0)
+    }
+
+    /// The most depth that any ray has between this plane, by which it enters, and the one by which it leaves: a linear function of
+    /// the direction, so that it is greatest at a corner, by the product of both rises.
+    fn depth_to(&self, back: &Self, directions: &[DVec3; 4]) -> f64 {
+        let numerator = |d: &DVec3| back.height * self.space.normal.dot(*d) - self.height * back.space.normal.dot(*d);
+        let size = |d: &DVec3| (back.height.abs() + self.height.abs()) * d.length();
+        let most = directions.iter().map(|d| numerator(d) + ROUNDING * size(d)).fold(f64::NEG_INFINITY, f64::max);
+        most.max(0.0) / (self.rises[0] * -back.rises[1])
     }
 }
 

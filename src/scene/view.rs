@@ -14,7 +14,7 @@ use crate::math::ray::ViewRays;
 pub struct View {
     pub size: [u32; 2],
     pub rays: ViewRays,
-    /// Clip coordinates x, y, w of the corners of triangles, three each: front faces (and cap), then back faces.
+    /// Clip coordinates x, y, w of the corners of triangles, three each: front faces, then back faces, caps among them.
     pub front: Vec<[f32; 3]>,
     pub back: Vec<[f32; 3]>,
     /// The pixels the box may cover; none where it is out of view.

@@ -6,6 +6,9 @@ use super::double_float;
 use crate::math::polyhedron::HalfSpace;
 use crate::math::ray::ViewRays;
 
+/// A plane as far from the eye as this cuts all of a volume or nothing: single precision has numbers for its depth.
+const FARTHEST: f64 = 1e30;
+
 /// `ClipPlane` of `glsl/shared/ray.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -18,7 +21,8 @@ pub struct ClipPlane {
 impl ClipPlane {
     pub fn new(plane: &HalfSpace, rays: &ViewRays) -> Self {
         let rise = |way| plane.normal.dot(way);
-        let heights = [plane.height(rays.eye), rise(rays.base), rise(rays.right), rise(rays.down)].map(double_float);
+        let height = plane.height(rays.eye).clamp(-FARTHEST, FARTHEST);
+        let heights = [height, rise(rays.base), rise(rays.right), rise(rays.down)].map(double_float);
         Self { heights: [0, 1].map(|part| heights.map(|height| height[part])) }
     }
 }

@@ -42,7 +42,7 @@ fn planes_come_from_scene_files_and_options() {
     place.file("a.toml", scene("[[clip]]\nplane = [0, 1, 0, 0.1]\n"));
     assert_eq!(place.done(&format!("render a.toml {LOOK} -o a.png")).err.matches("warning:").count(), 0);
     let told = place.done(&format!("render a.toml {LOOK} --clip-plane 0,-1,0,-0.2 -o a.png")).err;
-    assert!(told.contains("the picture is empty: clip planes cut off all"), "{told}");
+    assert!(told.contains("the picture is empty: clip planes leave less than one sample"), "{told}");
     let json = place.done(&format!("render a.toml {LOOK} --clip-plane=-1,0,0,0.3 -o a.png --json -")).out;
     let settings = serde_json::from_slice::<serde_json::Value>(&json).unwrap()["settings"]["clip"].take();
     let planes: Vec<_> = settings.as_array().unwrap().iter().map(|clip| clip["plane"][0].as_f64().unwrap()).collect();
@@ -54,7 +54,7 @@ fn nothing_is_written_where_geometry_is_wrong() {
     let place = driverless();
     for (rest, says) in [
         ("[[mesh]]\npath = \"none.ply\"\n", "none.ply"),
-        ("[[clip]]\nplane = [0, 0, 0, 1]\n", "a normal that leads nowhere"),
+        ("[[clip]]\nplane = [0, 0, 0, 1]\n", "a normal of length 0"),
         ("[[clip]]\nplane = [0, 0, 1]\n", "3 entries where there have to be 4"),
         ("[[clip]]\nplane = [0, 0, 1, 0]\nbuiltin = \"box\"\n", "stands beside other keys"),
         (&"[[clip]]\nplane = [0, 0, 1, 0]\n".repeat(7), "has 7 planes"),

@@ -6,7 +6,7 @@
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
-use depthleap::projection::PROJECTIONS;
+use depthleap::projection::{MIP, PROJECTIONS};
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
@@ -21,7 +21,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 33] = [
+const KINDS: [(&str, Change); 35] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -92,6 +92,14 @@ const KINDS: [(&str, Change); 33] = [
         s.clips = vec![clip(0.9, Keep::Inside), plane([0.3, -0.2, -1.0, 0.1])];
         (s.meshes, s.layers.most) = (vec![cuboid(0.5, 0.4), across(1.0)], 4);
         (s.sampling.last, s.sampling.offset) = (Last::Partial, Offset::Midpoint);
+    }),
+    ("planes, and values in place of colours", |s| {
+        s.clips = vec![plane([1.0, 0.2, 0.1, 0.15]), plane([0.1, -0.3, -1.0, 0.2])];
+        s.projection.kind = MIP.name();
+    }),
+    ("a plane, and what is behind the first surface of a box", |s| {
+        s.clips = vec![clip(0.8, Keep::Thesis), plane([0.5, 0.2, -1.0, 0.2])];
+        s.meshes = vec![across(0.5)];
     }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);

@@ -136,7 +136,7 @@ impl StabilityCase {
     }
 }
 
-/// The pixel of a medium of one colour, by the length of its ray in the box.
+/// The pixel of a medium of one colour, by the length of its ray in what is left of the box.
 pub fn beer(scene: &Scene, [column, row]: [u32; 2], color: [f64; 3], opacity: f64, steps: Option<f64>) -> [f64; 4] {
     let Ok(rays) = scene.camera.rays(scene.settings.image.size) else { return [0.0; 4] };
     let direction = rays.direction(column, row);

@@ -1,7 +1,7 @@
 //! Clip planes, in a medium whose rays' lengths are known.
 
 use super::super::case::{Expect, ROUNDING, SAME_SUM, StabilityCase};
-use crate::scene::settings::ClipSettings;
+use crate::scene::settings::{ClipSettings, Offset};
 
 const PLANES: &str = "clip planes";
 
@@ -14,7 +14,6 @@ fn cut(name: &str, planes: &[[f64; 4]]) -> StabilityCase {
 }
 
 pub fn cases() -> Vec<StabilityCase> {
-    // The middle of a voxel is 1/48 from its face.
     let slab = |half: f64| [[0.0, 0.0, 1.0, half], [0.0, 0.0, -1.0, half]];
     vec![
         cut("across the volume", &[[1.0, 0.3, -0.2, 0.1]]),
@@ -43,6 +42,9 @@ pub fn cases() -> Vec<StabilityCase> {
         cut("the eye cut off within the box", &[[0.0, 1.0, 0.0, -0.2]])
             .with(|s| (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.1, 0.4, 0.1])),
         cut("all of it cut off", &[[1.0, 0.0, 0.0, -0.2], [-1.0, 0.0, 0.0, 0.1]]).expect(Expect::Nothing, SAME_SUM),
+        cut("a slab between samples", &slab(4e-3))
+            .with(|s| s.sampling.offset = Offset::Midpoint)
+            .expect(Expect::Nothing, SAME_SUM),
         cut("no normal", &[[0.0, 0.0, 0.0, 1.0]]).expect(Expect::Refused("clip.plane"), ROUNDING),
     ]
 }
