@@ -6,7 +6,7 @@
 // the neighbour. 3. An empty segment is marked apart from a dead ray, so that the frame knows when all are dead.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS]
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS], [SURFACE]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 #include "shared/frame.glsl"
@@ -19,7 +19,7 @@
 #include "shared/projection.glsl"
 
 #ifndef ENDLESS
-layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#include "shared/gathered.glsl"
 #endif
 layout(set = 0, binding = 8, std430) readonly buffer CellRange {
     vec2 ranges[];
@@ -82,7 +82,7 @@ void main() {
 #ifdef ENDLESS
     bool saturated = false;
 #else
-    bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
+    bool saturated = ended(texelFetch(GATHERED, ivec2(gl_FragCoord.xy), 0), 0.0);
 #endif
 #ifdef PARTIAL_APART
     if (!saturated && only_partial(ray, this_step.pass)) {

@@ -15,7 +15,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [DENSE], [ENDLESS], [VALUES]
+//@takes [DENSE], [ENDLESS], [VALUES], [SURFACE]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 // RES comes first.
@@ -37,10 +37,19 @@
 #elif !defined(VALUES)
 #include "shared/transfer.glsl"
 #endif
+#ifdef SURFACE
+#include "shared/surface.glsl"
+#endif
 #include "shared/segment.glsl"
 
 #ifndef ENDLESS
+#ifdef SURFACE
+layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput surface_hit;
+#define GATHERED surface_hit
+#else
 layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
+#define GATHERED accumulated
+#endif
 
 // More than the blend unit may take from an opacity (BLEND_ROUNDING in src/twin/fused.rs).
 layout(constant_id = 10) const float BLEND_ROUNDING = 0.0;
@@ -57,18 +66,18 @@ layout(location = 0) out vec4 contribution;
 #endif
 #else
 bool alive_before() {
-    return !ended(subpassLoad(accumulated), 0.0);
+    return !ended(subpassLoad(GATHERED), 0.0);
 }
 
 #ifdef PARTIAL_APART
 // Whether a ray goes on with a segment added, whatever the blend unit rounds.
 bool alive_by(vec4 segment) {
-    return !ended(joined(subpassLoad(accumulated), segment), -BLEND_ROUNDING);
+    return !ended(joined(subpassLoad(GATHERED), segment), -BLEND_ROUNDING);
 }
 #endif
 
 bool saturated_by(vec4 segment) {
-    return ended(joined(subpassLoad(accumulated), segment), BLEND_ROUNDING);
+    return ended(joined(subpassLoad(GATHERED), segment), BLEND_ROUNDING);
 }
 #endif
 

@@ -1,10 +1,15 @@
 // The colour of a layer, blended under all that is in front of it [Thesis ch. 6 §2.2: "blended in by a separate fragment
-// program after each rendering of the volume"].
+// program after each rendering of the volume"]. SURFACE: not where the ray has met an iso-surface in front of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+//@takes [SURFACE]
 
 layout(set = 0, binding = 15) uniform sampler2D layer;
 layout(set = 0, binding = 16) uniform sampler2D layer_color;
+
+#ifdef SURFACE
+#include "shared/gathered.glsl"
+#endif
 
 layout(location = 0) out vec4 accumulated;
 
@@ -13,5 +18,10 @@ void main() {
     if (texelFetch(layer, pixel, 0).x == 0.0) {
         discard;
     }
+#ifdef SURFACE
+    if (texelFetch(GATHERED, pixel, 0).a > 0.0) {
+        discard;
+    }
+#endif
     accumulated = texelFetch(layer_color, pixel, 0);
 }

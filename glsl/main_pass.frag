@@ -1,6 +1,9 @@
 // Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2]. M samples of the ray's segment for this pass, joined
 // front to back; the blend unit joins the segment with what the pixel has already.
 //
+// SURFACE: it looks for the nearest place on an iso-surface, and writes where that is with opacity 1, which ends the ray; what it
+// looks like is found in one pass for all rays (lighting.frag) [Thesis ch. 5 §3.2].
+//
 // PARTIAL: behind all other main passes, the segments that end at a surface, of rays that were left for it [Thesis ch. 6 §7].
 //
 // Departure: a ray that has left the volume takes no samples, and the intermediate pass knows its length; KW03
@@ -8,7 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [VALUES]
+//@takes [VALUES], [SURFACE]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL]
 
 #include "shared/frame.glsl"
@@ -23,6 +26,9 @@
 #include "shared/preintegrated.glsl"
 #elif !defined(VALUES)
 #include "shared/transfer.glsl"
+#endif
+#ifdef SURFACE
+#include "shared/surface.glsl"
 #endif
 #include "shared/segment.glsl"
 

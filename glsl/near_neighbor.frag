@@ -9,7 +9,7 @@
 // counts it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD | BEGINS], [DENSE], [ENDLESS]
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [CULL_DISCARD | BEGINS], [DENSE], [ENDLESS], [SURFACE]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 #include "shared/frame.glsl"
@@ -24,7 +24,7 @@
 #include "shared/projection.glsl"
 
 #ifndef ENDLESS
-layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#include "shared/gathered.glsl"
 #endif
 
 #ifdef PARTIAL_APART
@@ -35,7 +35,7 @@ layout(constant_id = 18) const bool PARTIAL_AHEAD = false;
 
 float decide(Ray ray) {
 #ifndef ENDLESS
-    if (ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0)) {
+    if (ended(texelFetch(GATHERED, ivec2(gl_FragCoord.xy), 0), 0.0)) {
         return DEAD;
     }
 #endif

@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -16,7 +16,7 @@
 #include "shared/projection.glsl"
 
 #ifndef ENDLESS
-layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#include "shared/gathered.glsl"
 #endif
 
 void main() {
@@ -25,7 +25,7 @@ void main() {
 #ifdef ENDLESS
     bool saturated = false;
 #else
-    bool saturated = ended(texelFetch(accumulated, ivec2(gl_FragCoord.xy), 0), 0.0);
+    bool saturated = ended(texelFetch(GATHERED, ivec2(gl_FragCoord.xy), 0), 0.0);
 #endif
 #ifdef PARTIAL_APART
     if (!saturated && only_partial(ray, this_step.pass)) {

@@ -10,7 +10,7 @@ use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::resource::{self, RESOURCES, order};
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, ClipSettings, Distance, MeshSettings};
+use depthleap::scene::settings::{Classification, ClipSettings, Distance, LightSettings, MeshSettings};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use depthleap::structure::Lookup;
@@ -38,7 +38,13 @@ fn scenes() -> Vec<Scene> {
         s.meshes = vec![mesh(0.5), mesh(1.0)];
     });
     let cut = scene(|s| s.clips = vec![ClipSettings { plane: Some([0.0, 1.0, 0.0, 0.1]), ..ClipSettings::default() }]);
-    vec![scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons, cut]
+    let surface = scene(|s| s.surface.iso = Some(90.0));
+    let coloured_light = scene(|s| {
+        let direction = Some([1.0, 2.0, 3.0]);
+        (s.surface.iso, s.lights) =
+            (Some(90.0), vec![LightSettings { direction, color: [1.0, 0.5, 0.2], ..Default::default() }]);
+    });
+    vec![surface, coloured_light, scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons, cut]
 }
 
 fn hole_at_7(i: usize) -> f32 {

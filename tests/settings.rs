@@ -7,12 +7,13 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 6] = [
+const WITHOUT_OPTION: [(&str, &str); 7] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("transfer.preset", "--tf names it"),
     ("transfer.file", "--tf names it"),
     ("transfer.points", "they are too many for a command line"),
+    ("surface.levels", "they are too many for a command line"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
 ];
 
@@ -21,7 +22,7 @@ const WITHOUT_KEY: [(&str, &str); 4] =
     [("tf", "transfer.preset"), ("azimuth", "camera.eye"), ("elevation", "camera.eye"), ("distance", "camera.eye")];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 9] = [
+const WITHOUT_RANGE: [(&str, &str); 10] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.range", "its two ends are held against one another"),
@@ -31,19 +32,22 @@ const WITHOUT_RANGE: [(&str, &str); 9] = [
     ("volume.endian", "a word"),
     ("volume.component", "held against the file"),
     ("volume.frame", "held against the file"),
+    ("surface.levels", "tables, each with its checks"),
 ];
 
 /// What else may be absent: sources of a transfer function, which has checks of its own.
 const TRANSFER: [&str; 3] = ["transfer.preset", "transfer.file", "transfer.points"];
 
 /// Values of options that neither their words nor their limits tell.
-const VALUES: [(&str, &str); 6] = [
+const VALUES: [(&str, &str); 8] = [
     ("range", "1%,99%"),
     ("no-data", "-9999,-1"),
     ("dims", "3,2,1"),
     ("spacing", "1,2,3"),
     ("component", "luminance"),
     ("frame", "2"),
+    ("iso", "120.5"),
+    ("iso-width", "8"),
 ];
 
 fn path(key: &Key) -> String {
@@ -222,8 +226,12 @@ fn every_number_has_a_range_that_is_held() {
             assert!(is_word || default.is_none() && has_reason, "{name} has no range");
             continue;
         };
-        // Absent by default: a list of numbers, or a whole number.
-        let like = default.unwrap_or(if name == "volume.no_data" { Value::Array(vec![]) } else { Value::Integer(0) });
+        // Absent by default: a list of numbers, a number, or a whole number.
+        let like = default.unwrap_or(match name.as_str() {
+            "volume.no_data" => Value::Array(vec![]),
+            "surface.iso" | "surface.iso_width" => Value::Float(0.0),
+            _ => Value::Integer(0),
+        });
         let whole = matches!(&like, Value::Integer(_))
             || like.as_array().and_then(|all| all.first()).is_some_and(Value::is_integer);
         for number in inside(limits.allowed) {

@@ -1,11 +1,51 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
-// opacity.glsl and projection.glsl.
+// opacity.glsl and projection.glsl. SURFACE (with VALUES): surface.glsl.
 
 #if !defined(PREINTEGRATED) && !defined(VALUES)
 // Bring opacities from the reference length to the step.
 layout(constant_id = 4) const bool CORRECT_OPACITY = false;
 #endif
+#ifdef SURFACE
+// The part of the step after sample `i` that is on the part of the ray that is drawn, in steps.
+vec2 stretch_after(Ray ray, uint i) {
+#ifdef LAYERS
+    return vec2(max(float(i), ray.begin), min(i + 1u == ray.all ? ray.steps : float(i + 1u), ray.end));
+#else
+    return vec2(float(i), i + 1u == ray.samples ? ray.steps : float(i + 1u));
+#endif
+}
+
+// Where the ray's segment for main pass `pass` is on a surface first: steps to the last place in front of it that was looked at, and
+// to the first one on it, 0 and opacity 1; nothing where it is on none. Back to front, so that the nearest place is kept
+// [KW03 §2.2]. A ray that begins on a surface, or within, meets it there.
+//
+// Departure: the ends of steps are looked at, the exit point among them, not their begins: a segment then knows both places
+// between which it meets the surface.
+vec4 segment_color(Ray ray, uint pass) {
+    vec4 hit = vec4(0.0);
+    uint first = segment_begin(ray, pass);
+    uint end = min(pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
+    for (uint i = end; i > first; --i) {
+        vec2 stretch = stretch_after(ray, i - 1u);
+        if (level_of(sample_volume(ray, stretch.y)) >= 0) {
+            hit = vec4(stretch, 0.0, 1.0);
+        }
+    }
+#ifdef LAYERS
+    bool begins = first == ray.first;
+#else
+    bool begins = first == 0u;
+#endif
+    if (begins && first < end) {
+        float begin = stretch_after(ray, first).x;
+        if (level_of(sample_volume(ray, begin)) >= 0) {
+            hit = vec4(begin, begin, 0.0, 1.0);
+        }
+    }
+    return hit;
+}
+#else
 // Steps that sample `i` stands for.
 float extent_of_sample(Ray ray, uint i) {
 #ifdef LAYERS
@@ -65,4 +105,5 @@ vec4 segment_color(Ray ray, uint pass) {
     }
     return segment;
 }
+#endif
 #endif

@@ -90,7 +90,10 @@ pub fn scene_name(settings: &Settings) -> String {
     let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
     let built_in = || volume.builtin.clone().unwrap_or_else(|| builtin::DEFAULT.to_owned());
     let transfer = &settings.transfer;
+    let surfaces = settings.surface.asked();
     let tf = match (&transfer.preset, &transfer.file) {
+        _ if surfaces.len() == 1 => format!("iso {}", surfaces[0].iso),
+        _ if !surfaces.is_empty() => format!("{} iso-surfaces", surfaces.len()),
         (Some(name), _) => name.clone(),
         (None, Some(file)) => file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default(),
         (None, None) if transfer.points.is_some() => "points".to_owned(),

@@ -1,6 +1,7 @@
 //! Ends of rays before they leave the volume.
 
 use super::reasons::never_ends;
+use super::surface::ISO_SURFACE;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::projection::Ends;
 use crate::scene::settings::Alpha;
@@ -23,6 +24,8 @@ fn needed(context: &Context) -> Result<(), Why> {
 pub fn may_end(context: &Context) -> bool {
     !context.plans()
         || match context.projection().ends {
+            // A surface is opaque.
+            Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
             // Polygons add to the opacity, each as much as it likes.
             Ends::Opaque if context.blends => context.scene.settings.sampling.termination < 1.0,
             Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),

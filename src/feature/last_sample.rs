@@ -6,7 +6,7 @@ use crate::scene::settings::Last;
 /// The last sample stands for what is left of the ray.
 pub const LAST_SAMPLE: Feature = Feature {
     constants: |context| vec![("LAST_PARTIAL", u32::from(context.has(&LAST_SAMPLE)))],
-    ..Feature::at(Hook::Ray, "length of the last sample", |context| match context.scene.settings.sampling.last {
+    ..Feature::at(Hook::Ray, "length of the last sample", |context| match context.scene.last() {
         Last::Partial => Ok(()),
         Last::Full => Err("every sample stands for a whole step".into()),
     })

@@ -21,6 +21,7 @@ mod planes;
 mod preintegration;
 mod reasons;
 mod start;
+pub mod surface;
 mod transfer_function;
 
 pub use apart::APART;
@@ -31,6 +32,7 @@ pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
+pub use surface::ISO_SURFACE;
 
 use crate::part::Constant;
 use crate::part::access::{Access, Usage};
@@ -46,10 +48,11 @@ use layers::{CLIPPED, LAYER_BEFORE, LAYER_BEHIND};
 use opacity_correction::OPACITY_CORRECTION;
 use planes::CLIP_PLANES;
 use preintegration::PREINTEGRATION;
+use surface::LIGHT_COLORS;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 26] = [
+pub const FEATURES: [&Feature; 28] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -76,6 +79,8 @@ pub const FEATURES: [&Feature; 26] = [
     &OPAQUE_SURFACE,
     &APART,
     &CLIP_PLANES,
+    &ISO_SURFACE,
+    &LIGHT_COLORS,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

@@ -6,8 +6,9 @@ use super::structures::Structures;
 use crate::part::geometry::{Geometry, Hits, Sample};
 use crate::part::{Draw, Group, Step, Work};
 use crate::plan::Plan;
-use crate::projection;
+use crate::projection::{self, surface_values};
 use crate::scene::Scene;
+use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::twin::{Effect, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
@@ -15,6 +16,8 @@ use crate::twin::{Effect, Pixel, Twin};
 pub struct CpuFrame {
     /// Premultiplied RGBA, row 0 on top.
     pub pixels: Vec<[f64; 4]>,
+    /// How far f32 may be from each pixel, beyond what it takes from sums of samples.
+    pub rounding: Vec<f64>,
     /// Pixels that f32 cannot decide (see [`Pixel::undecided`]), or the rasteriser.
     pub undecided: Vec<bool>,
     /// How many of them lie so near to the outline of the box that a rasteriser, which moves corners to its raster,
@@ -33,6 +36,8 @@ pub struct CpuFrame {
 pub struct Counts {
     pub main: Vec<u64>,
     pub intermediate: Vec<u64>,
+    /// Of the lighting pass of iso-surfaces: rays that have met one.
+    pub light: u64,
     /// Of the parts of rays between layers, front to back; empty without polygons.
     pub layers: Vec<LayerCounts>,
 }
@@ -48,7 +53,7 @@ pub struct LayerCounts {
 
 impl Counts {
     pub fn new(passes: u32) -> Self {
-        Self { main: vec![0; passes as usize], intermediate: vec![0; passes as usize], layers: Vec::new() }
+        Self { main: vec![0; passes as usize], intermediate: vec![0; passes as usize], light: 0, layers: Vec::new() }
     }
 
     /// Counts the fragments of a step. Steps come in the order of their frame, in which polygons are peeled first.
@@ -74,6 +79,7 @@ impl Counts {
                 self.intermediate[pass] += fragments;
                 layer.into_iter().for_each(|layer| layer.intermediate += fragments);
             }
+            Group::Light => self.light += fragments,
             Group::Blend => layer.into_iter().for_each(|layer| *layer.pixels.get_or_insert(0) += fragments),
             _ => {}
         }
@@ -92,6 +98,9 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let height = plan.view.size[1];
     let table = structures.table(scene);
     let projection = projection::of(&scene.settings);
+    let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
+    let surface_values: Vec<[f64; 2]> =
+        surface_values(scene, map).into_iter().map(|values| values.map(|value| map.x(value))).collect();
     let twin = Twin {
         scene,
         rays: plan.view.rays,
@@ -102,6 +111,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         projection,
         fused: plan.method.fused,
         levels: projection.levels_in_x(scene),
+        surface_values: &surface_values,
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
     let rows: Vec<(CpuFrame, Vec<u64>)> =
@@ -110,6 +120,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let mut fragments = vec![0; plan.frame().len()];
     for (row, of_row) in rows {
         frame.pixels.extend(row.pixels);
+        frame.rounding.extend(row.rounding);
         frame.undecided.extend(row.undecided);
         frame.outline += row.outline;
         add(&mut fragments, &of_row);
@@ -123,6 +134,7 @@ impl CpuFrame {
     fn empty(plan: &Plan) -> Self {
         Self {
             pixels: Vec::new(),
+            rounding: Vec::new(),
             undecided: Vec::new(),
             outline: 0,
             counts: Counts::new(plan.passes),
@@ -166,6 +178,7 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         }
         let on_outline = hits.undecided();
         frame.pixels.push(pixel.accumulated);
+        frame.rounding.push(pixel.rounding);
         frame.undecided.push(pixel.undecided || on_outline);
         frame.outline += u64::from(on_outline);
     }

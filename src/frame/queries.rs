@@ -162,7 +162,9 @@ impl FrameQueries {
         let mut counts = Counts::new(self.passes);
         for (i, compiled) in steps.iter().enumerate() {
             let fragments = match compiled.step.group {
-                Group::Main | Group::Intermediate | Group::Blend => pool.read(i as u32..i as u32 + 1)?[0],
+                Group::Main | Group::Intermediate | Group::Light | Group::Blend => {
+                    pool.read(i as u32..i as u32 + 1)?[0]
+                }
                 _ => 0,
             };
             counts.add(&compiled.step, fragments);

@@ -1,13 +1,15 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
-use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, MARK_COPIES, START};
+use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::{alive, clear, clip_begin, clip_winding, direction, entry, layer, main_pass, mark_copy, peel, start};
+use crate::pass::{
+    alive, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel, start,
+};
 use crate::scene::settings::{Cull, Mark};
 
 /// Steps before the first main pass, and room for the uploads and builds that a plan puts in front of them: some thirty at
@@ -65,7 +67,7 @@ pub fn begin(context: &Context, steps: &mut Steps) {
 /// Empties RES where an intermediate pass reads it before the first main pass, unless rays begin with something.
 pub fn empty(context: &Context, steps: &mut Steps) {
     if context.section == 0 && context.has(&EARLY_ENDS) && !context.has(&START) {
-        steps.push(clear::clear());
+        steps.push(clear::clear(context));
     }
 }
 
@@ -78,7 +80,7 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
     let first = first_section(context);
     steps.enter(0, None);
     // Passes behind a layer that no ray has do not run, and do not empty RES.
-    steps.extend((first > 0).then(clear::clear));
+    steps.extend((first > 0).then(|| clear::clear(context)));
     for part in context.sections(first) {
         // Without the layer in front there is nothing behind it.
         let guard = part.section.checked_sub(1).map(|layer| guards[layer as usize]);
@@ -92,9 +94,10 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
             }
         }
         steps.enter(0, guard);
-        steps.extend((context.blends && part.section < context.layers).then(|| layer::layer(part.section)));
+        steps.extend((context.blends && part.section < context.layers).then(|| layer::layer(&part, part.section)));
     }
     steps.enter(0, None);
+    steps.extend(context.has(&ISO_SURFACE).then(|| lighting::lighting(context)));
     steps.extend(context.opaque.then(|| layer::opaque(context.layers)));
 }
 

@@ -65,6 +65,8 @@ pub enum Group {
     Peel,
     Main,
     Intermediate,
+    /// Lights on iso-surfaces, once for all rays.
+    Light,
     /// Colours of layers, and of opaque polygons, under what is in front of them.
     Blend,
     /// Marks to the depth buffer.
@@ -78,13 +80,14 @@ pub enum Group {
 }
 
 impl Group {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Upload,
         Self::Structure,
         Self::Setup,
         Self::Peel,
         Self::Main,
         Self::Intermediate,
+        Self::Light,
         Self::Blend,
         Self::Copy,
         Self::Alive,
@@ -100,6 +103,7 @@ impl Group {
             Self::Structure => "structure",
             Self::Setup => "setup",
             Self::Peel => "peel",
+            Self::Light => "light",
             Self::Blend => "blend",
             Self::Main => "main",
             Self::Intermediate => "intermediate",

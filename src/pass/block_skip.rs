@@ -3,7 +3,8 @@
 use ash::vk;
 
 use super::{constants, cull};
-use crate::feature::{self, APART, EARLY_ENDS};
+use crate::feature::surface::gathered;
+use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -23,13 +24,14 @@ pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
     accesses.extend(feature::reads(context, Hook::Decide));
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
     let mut draw = Draw::plain(&BOX_FRONT, "block_skip.frag", twin::block_skip::block_skip);
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(EARLY_ENDS.define(context));
     draw.define(APART.define(context));
+    draw.define(ISO_SURFACE.define(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize([constants::projection(context)]);

@@ -1,15 +1,16 @@
 //! Empties RES where an intermediate pass reads it before the first main pass has written it.
 
+use crate::feature::surface::gathered;
 use crate::part::access::Usage;
+use crate::part::rows::Context;
 use crate::part::{Group, Step, Work};
-use crate::resource;
 
-pub fn clear() -> Step {
+pub fn clear(context: &Context) -> Step {
     Step::new(
         "clear".to_owned(),
         Group::Setup,
         0,
-        vec![Usage::CopyTarget.of(resource::ACCUMULATED)],
-        Work::Clear(resource::ACCUMULATED),
+        vec![Usage::CopyTarget.of(gathered(context))],
+        Work::Clear(gathered(context)),
     )
 }

@@ -16,7 +16,7 @@ pub fn projection(context: &Context) -> Constant {
 
 /// Of passes that look ahead: a sample stands for all values up to the next one.
 pub fn spans(scene: &Scene) -> Constant {
-    ("SPANS", u32::from(scene.settings.sampling.preintegrates()))
+    ("SPANS", u32::from(scene.spans()))
 }
 
 /// Of `mark.glsl`: how marks that are copied are written.

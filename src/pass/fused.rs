@@ -1,6 +1,7 @@
 //! Main pass of the fused forms of near-neighbor skipping: it samples and marks where the ray goes on [Thesis §5.7].
 
 use super::{constants, cull};
+use crate::feature::surface::gathered;
 use crate::feature::{self, DISTANCES, EARLY_ENDS};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
@@ -28,7 +29,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     }
     // Its own opacity is read where a ray may end.
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
-    accesses.push(drawn.of(resource::ACCUMULATED));
+    accesses.push(drawn.of(gathered(context)));
     accesses.extend(feature::reads(context, Hook::Sample));
     let mut draw = Draw::plain(&BOX_FRONT, "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Ray));

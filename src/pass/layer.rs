@@ -1,15 +1,26 @@
 //! Colours of a layer under what is in front of it [Thesis ch. 6 §2.2].
 
+use std::sync::Arc;
+
+use crate::feature::ISO_SURFACE;
 use crate::geometry::SCREEN;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
-use crate::part::{Draw, Group, Step};
+use crate::part::rows::Context;
+use crate::part::{Draw, Group, Step, Work};
 use crate::resource;
 use crate::twin::{self, TwinPass};
 
-/// Blends the colours of `layer` in, wherever it has some.
-pub fn layer(layer: u32) -> Step {
-    blended(format!("layer #{layer}"), layer, twin::layer::layer)
+/// Blends the colours of `layer` in, wherever it has some and no iso-surface is in front of it.
+pub fn layer(context: &Context, layer: u32) -> Step {
+    let mut step = blended(format!("layer #{layer}"), layer, twin::layer::layer);
+    if context.has(&ISO_SURFACE) {
+        Arc::make_mut(&mut step.accesses).push(Usage::Sampled.of(resource::SURFACE_HIT));
+        if let Work::Draw(draw) = &mut step.work {
+            draw.define(["SURFACE"]);
+        }
+    }
+    step
 }
 
 /// Blends the colours of opaque polygons in, whose layer is that behind the transparent ones.

@@ -1,6 +1,7 @@
 //! Main pass: ray traversal [KW03 §2.1, Thesis §5.2.2].
 
 use super::{constants, cull};
+use crate::feature::surface::gathered;
 use crate::feature::{self, APART};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::{Access, Usage};
@@ -37,7 +38,7 @@ fn sampled(context: &Context, ends: bool) -> (Draw, Vec<Access>) {
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
         Usage::Sampled.of(resource::VOLUME),
-        Usage::Color.of(resource::ACCUMULATED),
+        Usage::Color.of(gathered(context)),
     ];
     let mut draw = Draw::plain(&BOX_FRONT, "main_pass.frag", twin::main_pass::main_pass);
     draw.specialize([constants::samples(context.scene), constants::projection(context)]);

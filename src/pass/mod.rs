@@ -14,6 +14,7 @@ pub mod direction;
 pub mod entry;
 pub mod fused;
 pub mod layer;
+pub mod lighting;
 pub mod main_pass;
 pub mod mark_copy;
 pub mod near_neighbor;

@@ -4,7 +4,8 @@ use ash::vk;
 
 use super::{constants, cull};
 use crate::feature::layers::first_section;
-use crate::feature::{self, APART, EARLY_ENDS};
+use crate::feature::surface::gathered;
+use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -25,7 +26,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     ];
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
     accesses.extend(feature::reads(context, Hook::Decide));
     // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
     let anew = context.section > first_section(context) && pass == 0;
@@ -36,6 +37,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::Decide));
+    draw.define(ISO_SURFACE.define(context));
     draw.define(anew.then_some("BEGINS"));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);

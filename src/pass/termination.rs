@@ -3,7 +3,8 @@
 use ash::vk;
 
 use super::{constants, cull};
-use crate::feature::{self, APART, EARLY_ENDS};
+use crate::feature::surface::gathered;
+use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -20,7 +21,7 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
     ];
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
     let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
@@ -29,6 +30,7 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(EARLY_ENDS.define(context));
     draw.define(APART.define(context));
+    draw.define(ISO_SURFACE.define(context));
     draw.specialize((APART.constants)(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::projection(context)]);

@@ -154,6 +154,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
     feature::layers::check(scene)?;
+    feature::surface::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view);
     check_passes(scene, method, passes)?;

@@ -22,6 +22,10 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if let Some(values) = &projection::of(&scene.settings).values {
         return value_error(scene, values, error, samples, passes);
     }
+    if scene.surface.is_some() {
+        // A ray that misses a surface by a little has none of its colour.
+        return if error == 0.0 { 0.0 } else { f64::INFINITY };
+    }
     let sampling = &scene.settings.sampling;
     let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
     if error == 0.0 || !error.is_finite() {

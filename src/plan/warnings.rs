@@ -4,7 +4,7 @@ use super::Plan;
 use crate::projection;
 use crate::scene::mesh::ClipMesh;
 use crate::scene::range::RangeEnd;
-use crate::scene::settings::{Accumulate, Filter, VolumeTexture};
+use crate::scene::settings::{Accumulate, Filter, Find, VolumeTexture};
 use crate::scene::texture::{TextureChoice, Within};
 use crate::scene::view::View;
 use crate::scene::{ClipPlanes, Scene};
@@ -67,6 +67,9 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     if projection::of(&scene.settings).shows_values() || any_interesting(scene) {
         return None;
     }
+    if scene.surface.is_some() {
+        return Some(no_surface(scene));
+    }
     if scene.transfer.knots().iter().all(|knot| knot.opacity == 0.0) {
         return Some(format!("the picture is empty: the transfer function {} has no opacity", scene.transfer.name));
     }
@@ -99,6 +102,24 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         "the picture is empty: {values}, and over the scalar range {low} to {high} the transfer function {transfer} shows \
          nothing there; try another --tf{advice}"
     ))
+}
+
+/// That no value is on any surface of a scene.
+fn no_surface(scene: &Scene) -> String {
+    let (field, surface) = (&scene.field, &scene.settings.surface);
+    let asked: Vec<String> = surface.asked().iter().map(|level| level.iso.to_string()).collect();
+    let [least, most] = field.value_extremes().unwrap_or(field.range);
+    let asked = asked.join(", ");
+    let values = format!("values run from {least} to {most}");
+    match surface.find {
+        Find::Crossing => {
+            format!("the picture is empty: no value reaches {asked}, where {values}; give a smaller --iso")
+        }
+        Find::Range => {
+            let advice = "give another --iso, or a larger --iso-width";
+            format!("the picture is empty: no value is in the range about {asked}, where {values}; {advice}")
+        }
+    }
 }
 
 /// Whether rays would have samples if it were not for clip planes.

@@ -25,12 +25,14 @@ mod extreme;
 mod row;
 mod shown;
 mod sum;
+mod surface;
 
 pub use composite::COMPOSITE;
 pub use extreme::{MINIP, MIP};
 pub use row::{Ends, Levels, Met, OfValues, Projection, SampleWeight, ValueSpan};
 pub use shown::Shown;
 pub use sum::{AVERAGE, XRAY};
+pub use surface::{first_met, on_surface, surface_values};
 
 use std::str::FromStr;
 

@@ -1,6 +1,7 @@
-//! What shows among values: what the transfer function makes visible, or what counts for a projection of values.
+//! What shows among values: what the transfer function makes visible, what counts for a projection of values, or what is on a
+//! surface.
 
-use super::of;
+use super::{of, surface_values};
 use crate::scene::texture::TextureMap;
 use crate::scene::{Scene, TransferFunction};
 
@@ -16,6 +17,9 @@ pub enum Shown {
 impl Shown {
     /// What shows of a scene, in the unit that `map` leads to.
     pub fn of(scene: &Scene, map: TextureMap) -> Self {
+        if scene.surface.is_some() {
+            return Self::Within(apart(surface_values(scene, map)));
+        }
         let projection = of(&scene.settings);
         match &projection.values {
             None => Self::Visible(scene.transfer.mapped(|x| map.value(x))),
@@ -46,6 +50,17 @@ impl Shown {
             }
         }
     }
+}
+
+/// Intervals that rise, those that meet joined.
+fn apart(intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    intervals.into_iter().fold(Vec::new(), |mut apart: Vec<[f64; 2]>, [from, to]| {
+        match apart.last_mut() {
+            Some(before) if from <= before[1].next_up() => before[1] = before[1].max(to),
+            _ => apart.push([from, to]),
+        }
+        apart
+    })
 }
 
 impl From<&TransferFunction> for Shown {

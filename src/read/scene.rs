@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::math::polyhedron::HalfSpace;
 use crate::scene::mesh::{Mesh, shape};
 use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
-use crate::scene::{Camera, ClipPlanes, Field, Polygons, Scene, TextureUnit, Volume, builtin};
+use crate::scene::{Camera, ClipPlanes, Field, Polygons, Scene, Surface, TextureUnit, Volume, builtin};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
@@ -121,8 +121,10 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
     let planes = settings.clips.iter().filter_map(ClipSettings::half_space).map(in_axes);
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
+    let surface = Surface::of(settings, &field, &transfer);
+    let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
     let (settings, field) = (settings.clone(), Arc::new(field));
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, unit: TextureUnit::default() })
+    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, unit: TextureUnit::default() })
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.

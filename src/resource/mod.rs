@@ -8,6 +8,7 @@ mod frame;
 mod layers;
 mod look;
 mod structure;
+mod surface;
 pub mod texels;
 
 pub use frame::{ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
@@ -19,17 +20,19 @@ pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
     SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
 };
+pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 38] = [
+pub const RESOURCES: [Resource; 42] = [
     BOX,
     FRAME,
     CLIP_PLANES,
     ENTRY,
     DIRECTION,
     ACCUMULATED,
+    SURFACE_HIT,
     STORED,
     MARKS,
     MARKS_BUFFER,
@@ -42,6 +45,9 @@ pub const RESOURCES: [Resource; 38] = [
     LAYER_COLOR,
     PEEL_DEPTH,
     CLIP_WINDING,
+    SURFACE_LEVELS,
+    LIGHTS,
+    WHITE_LIGHTS,
     VOLUME,
     HOLES,
     TRANSFER,

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod field;
 pub(crate) mod file_name;
 mod fixed;
+pub mod light;
 pub mod limits;
 pub mod longest;
 pub mod mesh;
@@ -15,6 +16,7 @@ pub mod range;
 pub mod region;
 pub mod scenes;
 pub mod settings;
+pub mod surface;
 pub mod texture;
 pub mod transfer;
 pub mod view;
@@ -25,10 +27,12 @@ use std::sync::Arc;
 
 pub use camera::Camera;
 pub use field::Field;
+pub use light::Light;
 pub use mesh::Polygons;
 pub use planes::ClipPlanes;
 pub use region::Region;
 pub use settings::Settings;
+pub use surface::Surface;
 pub use texture::TextureUnit;
 pub use transfer::TransferFunction;
 pub use volume::Volume;
@@ -44,6 +48,10 @@ pub struct Scene {
     pub polygons: Arc<Polygons>,
     /// Planes that the volume is cut at.
     pub planes: ClipPlanes,
+    /// Iso-surfaces that are drawn in place of the volume's colours.
+    pub surface: Option<Surface>,
+    /// Lights that are given, in the volume's axes.
+    pub lights: Vec<Light>,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
 }

@@ -4,11 +4,13 @@ mod bundle;
 mod planes;
 mod polygons;
 mod slice;
+mod surface;
 
 pub use bundle::Bundle;
 pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
 pub use slice::Slice;
+pub use surface::{SurfaceLevel, light_rows, surface_levels};
 
 use bytemuck::{Pod, Zeroable};
 

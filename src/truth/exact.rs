@@ -24,9 +24,11 @@
 //! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
 
 mod cubic;
+mod first;
 mod met;
 mod panel;
 
+pub use first::FirstPlace;
 pub use panel::TOLERANCE;
 
 use glam::DVec3;
@@ -40,6 +42,7 @@ use crate::math::opacity::composite;
 use crate::math::polyhedron::HalfSpace;
 use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
+use crate::scene::light::{LitPoint, lit};
 use crate::scene::mesh::DividedRay;
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Polygons, Scene, TransferFunction};
@@ -58,6 +61,8 @@ pub struct ExactIntegrator<'a> {
     planes: &'a [HalfSpace],
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
+    /// The scene, where its surfaces are drawn in place of colours.
+    surfaces: Option<&'a Scene>,
 }
 
 /// A transfer function as a medium that light passes through.
@@ -81,6 +86,8 @@ struct CellPart {
     corners: [f64; 8],
     start: [f64; 3],
     rise: [f64; 3],
+    /// Axes along which the field does not change, beyond the outermost voxel centres.
+    clamped: [bool; 3],
 }
 
 /// Light gathered so far, premultiplied, and what is left to pass.
@@ -92,7 +99,7 @@ struct Light {
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
         let medium = Absorber::new(transfer);
-        Self { field, medium, projection: &COMPOSITE, polygons: None, planes: &[], nearest: false }
+        Self { field, medium, projection: &COMPOSITE, polygons: None, planes: &[], nearest: false, surfaces: None }
     }
 
     /// Of a scene, by its projection: its field between voxels is what its filter makes of it.
@@ -102,13 +109,17 @@ impl<'a> ExactIntegrator<'a> {
         let polygons =
             Some((&*scene.polygons, scene.settings.layers.most)).filter(|(polygons, _)| !polygons.is_empty());
         let planes = scene.clip_planes();
-        Self { nearest, projection, polygons, planes, ..Self::new(&scene.field, &scene.transfer) }
+        let surfaces = scene.surface.is_some().then_some(scene);
+        Self { nearest, projection, polygons, planes, surfaces, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
     /// `direction` has length 1. The field goes on outside the volume as it is on its faces. Transparent black for
     /// a `length` that is not positive.
     pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        if let Some(scene) = self.surfaces {
+            return self.surface(scene, entry, direction, length);
+        }
         let voxel = self.field.voxel();
         let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
         let cuts = self.plane_cuts(&line, length);
@@ -133,6 +144,16 @@ impl<'a> ExactIntegrator<'a> {
             }
         }
         light.rgba()
+    }
+
+    /// The colour of the surface that a ray meets first, lit by the gradient of the interpolant.
+    fn surface(&self, scene: &Scene, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        let levels = scene.surface.iter().flat_map(|surface| &surface.levels);
+        let (ranges, colors): (Vec<[f64; 2]>, Vec<[f64; 3]>) = levels.map(|level| (level.values, level.color)).unzip();
+        let Some(found) = self.first_within(entry, direction, length, &ranges) else { return [0.0; 4] };
+        let point = LitPoint { place: entry + found.t * direction, normal: found.gradient, view: -direction };
+        let [r, g, b] = lit(colors[found.range], &scene.surface_lights(), &point);
+        [r, g, b, 1.0]
     }
 
     /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to
@@ -194,13 +215,14 @@ impl<'a> ExactIntegrator<'a> {
         let dims = self.field.dims();
         let middle = line.origin + 0.5 * (a + b) * line.direction;
         let mut low = [0; 3];
-        let (mut start, mut rise) = ([0.0; 3], [0.0; 3]);
+        let (mut start, mut rise, mut clamped) = ([0.0; 3], [0.0; 3], [true; 3]);
         for axis in 0..3 {
             let last = dims[axis] - 1;
             let below = middle[axis].floor();
             low[axis] = below.clamp(0.0, last as f64) as usize;
             // Beyond the outermost centres the field is clamped: it doesn't change along this axis.
             if below >= 0.0 && low[axis] < last {
+                clamped[axis] = false;
                 // Within the cell, whatever rounding says of a very flat one.
                 start[axis] = (line.origin[axis] + a * line.direction[axis] - below).clamp(0.0, 1.0);
                 rise[axis] = ((b - a) * line.direction[axis]).clamp(-start[axis], 1.0 - start[axis]);
@@ -215,13 +237,13 @@ impl<'a> ExactIntegrator<'a> {
         }
         if self.nearest {
             let value = nearest(&self.field.values, dims, middle + 0.5);
-            return Some(CellPart { corners: [value; 8], start: [0.0; 3], rise: [0.0; 3] });
+            return Some(CellPart { corners: [value; 8], start: [0.0; 3], rise: [0.0; 3], clamped: [true; 3] });
         }
         let corners: [f64; 8] = std::array::from_fn(|corner| {
             let at = |axis: usize| (low[axis] + (corner >> axis & 1)).min(dims[axis] - 1);
             f64::from(self.field.values[(at(2) * dims[1] + at(1)) * dims[0] + at(0)])
         });
-        Some(CellPart { corners, start, rise })
+        Some(CellPart { corners, start, rise, clamped })
     }
 
     /// Adds the part [a, b] of the line, which runs through that part of a cell.
@@ -255,6 +277,28 @@ fn divided_by(ray: &DividedRay, (enter, leave): (f64, f64), between: impl Fn(f64
 impl CellPart {
     fn cubic(&self) -> Cubic {
         Cubic::of_cell(self.corners, self.start, self.rise)
+    }
+
+    /// The gradient of the interpolant at `s` of the way through the cell, over a voxel along each axis; 0 along an axis on which the
+    /// way lies beyond the outermost centres.
+    fn gradient(&self, s: f64) -> DVec3 {
+        let weight: [f64; 3] = std::array::from_fn(|axis| self.start[axis] + s * self.rise[axis]);
+        DVec3::from_array(std::array::from_fn(|axis| {
+            if self.clamped[axis] {
+                return 0.0;
+            }
+            (0..8)
+                .map(|corner: usize| {
+                    let share = |other: usize| match (corner >> other & 1, other == axis) {
+                        (1, true) => 1.0,
+                        (_, true) => -1.0,
+                        (1, false) => weight[other],
+                        (_, false) => 1.0 - weight[other],
+                    };
+                    self.corners[corner] * share(0) * share(1) * share(2)
+                })
+                .sum()
+        }))
     }
 }
 

@@ -33,7 +33,7 @@ pub fn block_skip(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
 /// Whether anything shows in the block of sample `i`; where samples stand for all values up to the next one, in the
 /// blocks from there to that of the next one too.
 fn visible(twin: &Twin, blocks: &Blocks, pixel: &mut Pixel, i: u32) -> bool {
-    if twin.table.is_none() {
+    if !twin.scene.spans() {
         return twin.at_cell(pixel, i, |cell| blocks.visible(cell));
     }
     let [front, back] = twin.span(pixel, i);

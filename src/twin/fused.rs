@@ -23,7 +23,7 @@ pub fn fused(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     if next == pass {
         let (segment, found) = twin.segment_color(pixel, pass);
         effect = found;
-        pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
+        twin.gather(pixel, segment);
         let certain = f64::from(blend_rounding(twin.scene.settings.image.accumulate));
         let dead = twin.saturated_by(pixel, certain);
         goes_on = !twin.saturated_by(pixel, -certain);

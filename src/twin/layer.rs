@@ -8,9 +8,10 @@ use crate::scene::settings::{Last, PartialSegments};
 /// the face of the box is counted in steps.
 const SURFACE_ROUNDING: f64 = 4e-7;
 
-/// Blends the colour of a transparent layer under what is in front of it.
+/// Blends the colour of a transparent layer under what is in front of it, unless that is an iso-surface.
 pub fn layer(_: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
-    let Some(surface) = pixel.layers.get(layer as usize).copied() else { return Effect::Discarded };
+    let surface = pixel.layers.get(layer as usize).copied().filter(|_| pixel.hit[3] == 0.0);
+    let Some(surface) = surface else { return Effect::Discarded };
     pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
@@ -45,13 +46,28 @@ impl Twin<'_> {
         if begin >= end || all == 0 {
             return (0, 0);
         }
-        match self.scene.settings.sampling.last {
+        match self.scene.last() {
             Last::Partial => ((begin.floor() as u32).min(all - 1), (end.ceil() as u32).min(all)),
             Last::Full => {
                 let sample = |steps: f64| (steps - self.scene.settings.sampling.offset.steps()).ceil().max(0.0) as u32;
                 (sample(begin), sample(end).min(all))
             }
         }
+    }
+
+    /// How far f32 may be off with where a surface cuts the ray, in steps.
+    fn cut_reach(&self, pixel: &Pixel) -> f64 {
+        SURFACE_ROUNDING / self.step_length() * (1.0 + pixel.length)
+    }
+
+    /// The same in voxels, at the most on any axis; of places on a ray that are not those of samples.
+    pub(super) fn cut_rounding(&self, pixel: &Pixel) -> f64 {
+        self.cut_reach(pixel) * self.voxels_in_step(pixel)
+    }
+
+    /// Voxels that a step goes through, at the most on any axis.
+    pub(super) fn voxels_in_step(&self, pixel: &Pixel) -> f64 {
+        (pixel.direction / self.scene.field.voxel() * self.step_length()).abs().max_element()
     }
 
     /// Goes to the part of the ray behind so many layers, and sees whether f32 can tell its samples.
@@ -62,14 +78,14 @@ impl Twin<'_> {
             return;
         }
         let (steps, offset) = (self.steps(pixel), self.scene.settings.sampling.offset.steps());
-        let reach = SURFACE_ROUNDING / self.step_length() * (1.0 + pixel.length);
+        let reach = self.cut_reach(pixel);
         // Where segments that end at a surface are drawn apart, it matters whether it is that or the face of the box.
         if self.scene.settings.layers.partial == PartialSegments::Apart {
             let surfaces = pixel.layers.iter().chain(&pixel.opaque);
             pixel.undecided |= surfaces.into_iter().any(|surface| (surface.steps - steps).abs() < reach);
         }
         for cut in self.part(pixel).into_iter().filter(|cut| *cut > 0.0 && *cut < steps) {
-            let place = match self.scene.settings.sampling.last {
+            let place = match self.scene.last() {
                 Last::Partial => cut,
                 Last::Full => cut - offset,
             };

@@ -5,7 +5,7 @@ use super::{Effect, Pixel, Twin};
 /// Joins the segment of main pass `pass` with what the pixel has already.
 pub fn main_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let (segment, effect) = twin.segment_color(pixel, pass);
-    pixel.accumulated = twin.projection.blend.apply(pixel.accumulated, segment);
+    twin.gather(pixel, segment);
     effect
 }
 

@@ -6,7 +6,9 @@ pub mod clip_winding;
 pub mod direction;
 pub mod entry;
 pub mod fused;
+pub mod gradient;
 pub mod layer;
+pub mod lighting;
 pub mod main_pass;
 pub mod near_neighbor;
 pub mod peel;
@@ -14,6 +16,7 @@ pub mod samples;
 pub mod section;
 pub mod segment;
 pub mod start;
+pub mod surface;
 pub mod termination;
 
 use glam::DVec3;
@@ -48,6 +51,8 @@ pub struct Twin<'a> {
     pub fused: bool,
     /// What its values are held against, as x.
     pub levels: Levels,
+    /// The values that are on each surface, as x; none where colours are shown.
+    pub surface_values: &'a [[f64; 2]],
 }
 
 /// A surface that a ray meets.
@@ -73,6 +78,8 @@ pub struct Pixel {
     pub length: f64,
     /// RES, premultiplied RGBA.
     pub accumulated: [f64; 4],
+    /// RES of rays that look for a surface: steps to the places between which they meet it, 0, and 1 where there is one.
+    pub hit: [f64; 4],
     /// The depth buffer.
     pub stored: f64,
     /// Fronts less backs of each clip mesh that the ray meets.
@@ -88,6 +95,8 @@ pub struct Pixel {
     /// f32 cannot decide whether a sample is on the ray, on which side of a jump or in which of two cells it lies, or
     /// whether the ray is saturated; picture and counts of the pixel may differ by more than rounding.
     pub undecided: bool,
+    /// How far f32 may be from the colour, beyond what it takes from sums of samples.
+    pub rounding: f64,
 }
 
 /// Numbers as the 32-bit attachments ENTRY and DIR keep them: samples are taken along the ray that is stored.

@@ -148,9 +148,11 @@ impl Twin<'_> {
         const ROUNDING: f64 = 1e-5;
         let threshold = self.scene.settings.sampling.termination + margin;
         // Opacity never exceeds 1, so that at T = 1 there is nothing to decide.
-        if threshold < 1.0 && pixel.accumulated[3] > 0.0 {
-            pixel.undecided |= (pixel.accumulated[3] - threshold).abs() < ROUNDING;
+        let opacity = self.gathered(pixel)[3];
+        // That of a surface is 1 to the bit.
+        if threshold < 1.0 && opacity > 0.0 && self.scene.surface.is_none() {
+            pixel.undecided |= (opacity - threshold).abs() < ROUNDING;
         }
-        pixel.accumulated[3] > threshold
+        opacity > threshold
     }
 }

@@ -94,16 +94,23 @@ impl Twin<'_> {
         }
     }
 
+    /// Whether f32 may take another voxel as the nearest, whose value is another one; places are off by `more` voxels besides.
+    pub(super) fn nearest_undecided(&self, voxel: DVec3, value: f64, more: f64) -> bool {
+        let field = &self.scene.field;
+        let reach = FACE_ROUNDING + more;
+        let beside = |n: usize| {
+            let by = |axis: usize| if n >> axis & 1 == 0 { -reach } else { reach };
+            voxel + DVec3::new(by(0), by(1), by(2))
+        };
+        (0..8).any(|n| nearest(&field.values, field.dims(), beside(n)) != value)
+    }
+
     /// The value of the voxel nearest to `voxel`; undecided where f32 may take another, or see it on the other side of a
     /// jump.
     fn nearest_value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
         let field = &self.scene.field;
         let value = nearest(&field.values, field.dims(), voxel);
-        let beside = |n: usize| {
-            let by = |axis: usize| if n >> axis & 1 == 0 { -FACE_ROUNDING } else { FACE_ROUNDING };
-            voxel + DVec3::new(by(0), by(1), by(2))
-        };
-        pixel.undecided |= (0..8).any(|n| nearest(&field.values, field.dims(), beside(n)) != value);
+        pixel.undecided |= self.nearest_undecided(voxel, value, 0.0);
         let near = |x: f64| (value - x).abs() < VALUE_ROUNDING * value.abs();
         pixel.undecided |= self.jumps_near(near);
         value
@@ -120,16 +127,23 @@ impl Twin<'_> {
 
     /// Whether f32 may have a `value` interpolated at `voxel` on the other side of a `jump`.
     fn may_cross(&self, jump: f64, value: f64, voxel: DVec3) -> bool {
-        let off = (value - jump).abs();
+        (value - jump).abs() < self.value_rounding(value, voxel, 0.0)
+    }
+
+    /// How far f32 may be from a `value` interpolated at `voxel`, where places are off by `more` voxels besides.
+    pub(super) fn value_rounding(&self, value: f64, voxel: DVec3, more: f64) -> f64 {
         let field = &self.scene.field;
         let corners = field.corners(field.cell_at(voxel)).map(|c| f64::from(field.values[c]));
         let spread =
             corners.into_iter().fold(f64::NEG_INFINITY, f64::max) - corners.into_iter().fold(f64::INFINITY, f64::min);
-        off < VALUE_ROUNDING * value.abs() + PLACE_ROUNDING * spread
+        VALUE_ROUNDING * value.abs() + (PLACE_ROUNDING + more) * spread
     }
 
     /// What the ray's segment for main pass `pass` brings to the pixel, and whether it took a sample that shows.
     pub fn segment_color(&self, pixel: &mut Pixel, pass: u32) -> ([f64; 4], Effect) {
+        if self.scene.surface.is_some() {
+            return self.surface_segment(pixel, pass);
+        }
         let (first, end) = self.segment(pixel, pass);
         let mut segment = self.no_sample();
         let mut effect = Effect::Silent;

@@ -67,13 +67,12 @@ impl Test {
 /// Set for drivers on which real volumes show nothing that they do not show on another one, where they take minutes.
 const LEFT_OUT: &str = "DEPTHLEAP_NO_REAL_VOLUMES";
 
-/// Set for a driver that takes seconds for each form, where its forms without the bounds test show nothing that they do not show on
-/// others.
-const BOUNDS_ONLY: &str = "DEPTHLEAP_BOUNDS_FORMS";
+/// Set for a driver beside another one that draws every scene in every form.
+const SOME_FORMS: &str = "DEPTHLEAP_SOME_FORMS";
 
-/// Whether tests that go over all forms leave those without the bounds test to other drivers.
-pub fn bounds_only() -> bool {
-    std::env::var_os(BOUNDS_ONLY).is_some()
+/// Whether tests that go over all forms of many scenes draw each scene in one of them, and another scene in another.
+pub fn some_forms() -> bool {
+    std::env::var_os(SOME_FORMS).is_some()
 }
 
 /// A file of `../shared/data`, beside the checkout.
@@ -124,9 +123,9 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         Ok(device) => {
             let info = &device.info;
             eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
-            if bounds_only() {
+            if some_forms() {
                 eprintln!(
-                    "LEFT TO OTHER DRIVERS: forms without the bounds test, in most tests over all forms ({BOUNDS_ONLY})"
+                    "LEFT TO ANOTHER DRIVER: all forms of a method in one scene; here another one in each ({SOME_FORMS})"
                 );
             }
         }

@@ -11,7 +11,8 @@ use depthleap::read;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
-    Alpha, Classification, ClipSettings, Filter, Last, MeshSettings, Offset, PartialSegments, Settings, VolumeTexture,
+    Alpha, Classification, ClipSettings, Filter, Find, Last, LightSettings, MeshSettings, Offset, PartialSegments,
+    Refine, Settings, SurfaceLevel, VolumeTexture,
 };
 use depthleap::scene::{Camera, Scene};
 
@@ -21,7 +22,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 35] = [
+const KINDS: [(&str, Change); 42] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -101,11 +102,47 @@ const KINDS: [(&str, Change); 35] = [
         s.clips = vec![clip(0.8, Keep::Thesis), plane([0.5, 0.2, -1.0, 0.2])];
         s.meshes = vec![across(0.5)];
     }),
+    ("an iso-surface", |s| s.surface.iso = Some(90.0)),
+    ("iso-surfaces in colours and coloured light, to the root", |s| {
+        s.surface.levels = vec![level(150.0, [0.9, 0.2, 0.1]), level(60.0, [0.2, 0.8, 0.3])];
+        s.surface.refine = Refine::Exact;
+        s.lights = vec![
+            LightSettings {
+                direction: Some([-3.0, 2.0, 1.0]),
+                color: [1.0, 0.3, 0.2],
+                specular: 0.8,
+                ..Default::default()
+            },
+            LightSettings { position: Some([0.7, -0.9, 0.8]), color: [0.2, 0.3, 1.0], ..Default::default() },
+        ];
+    }),
+    ("a range of values, where samples are", |s| {
+        (s.surface.iso, s.surface.find, s.surface.iso_width) = (Some(120.0), Find::Range, Some(70.0));
+        (s.surface.refine, s.sampling.step) = (Refine::None, 0.7);
+    }),
+    ("an iso-surface, and no ray that ends", |s| {
+        (s.surface.iso, s.sampling.termination, s.sampling.samples_per_pass) = (Some(90.0), 1.0, 3);
+    }),
+    ("an iso-surface, nothing left out", |s| (s.surface.iso, s.method.planner) = (Some(90.0), false)),
+    ("an iso-surface, meshes, a plane and clip geometry", |s| {
+        (s.surface.iso, s.surface.refine) = (Some(90.0), Refine::Exact);
+        s.clips = vec![clip(0.9, Keep::Inside), plane([0.3, -0.2, -1.0, 0.1])];
+        (s.meshes, s.layers.most) = (vec![cuboid(0.5, 0.4), across(1.0)], 4);
+    }),
+    ("an iso-surface, and segments that end at a mesh, drawn apart", |s| {
+        (s.surface.iso, s.layers.partial, s.layers.most) = (Some(90.0), PartialSegments::Apart, 2);
+        s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+    }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
         s.sampling.last = Last::Partial;
     }),
 ];
+
+/// An iso-surface with a colour of its own.
+fn level(iso: f64, color: [f64; 3]) -> SurfaceLevel {
+    SurfaceLevel { iso, color: Some(color), ..SurfaceLevel::default() }
+}
 
 /// A box along no axis; backs have another colour.
 fn cuboid(side: f64, opacity: f64) -> MeshSettings {

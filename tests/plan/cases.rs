@@ -51,6 +51,15 @@ fn cut(method: MethodName, form: Option<Form>) -> Plan {
     plan(&scene(&settings), form).unwrap()
 }
 
+/// With an iso-surface in the light at the eye, and a transparent mesh.
+fn on_surface(method: MethodName, form: Option<Form>) -> Plan {
+    let mut settings = settings(method);
+    settings.surface.iso = Some(90.0);
+    let mesh = MeshSettings { builtin: Some("box".to_owned()), opacity: 0.5, ..MeshSettings::default() };
+    (settings.meshes, settings.layers.most) = (vec![mesh], 1);
+    plan(&scene(&settings), form).unwrap()
+}
+
 /// By early z, with clip geometry around the eye, and with a mesh where it keeps what is outside.
 fn clipped(keep: Keep, partial: PartialSegments, form: Option<Form>) -> Plan {
     let mut settings = settings(method::RC_ERT.name());
@@ -120,6 +129,12 @@ pub fn cases() -> Vec<Case> {
     }
     let planes = cut(method::NN_OMNI.name(), form(Bounds, Fragdepth));
     cases.push(Case { name: "nn-omni_bounds_fragdepth_planes", plan: planes });
+    for (name, method, form) in [
+        ("rc-ert_surface", method::RC_ERT.name(), form(Ztest, Fragdepth)),
+        ("nn-omni_bounds_fragdepth_surface", method::NN_OMNI.name(), form(Bounds, Fragdepth)),
+    ] {
+        cases.push(Case { name, plan: on_surface(method, form) });
+    }
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases
 }

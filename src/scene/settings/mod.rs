@@ -15,6 +15,7 @@ mod clip;
 mod image;
 mod key;
 mod layers;
+mod light;
 mod mesh;
 mod method;
 mod parse;
@@ -22,6 +23,7 @@ mod placed;
 mod projection;
 mod sampling;
 mod section;
+mod surface;
 mod transfer;
 mod volume;
 
@@ -39,10 +41,12 @@ pub use clip::{ClipOptions, ClipSettings};
 pub use image::Accumulate;
 pub use key::Key;
 pub use layers::PartialSegments;
+pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
 pub use placed::Placed;
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
+pub use surface::{Find, MOST_SURFACES, Refine, SurfaceLevel};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 
 /// Joins the sections.
@@ -61,6 +65,9 @@ macro_rules! sections {
             /// Geometry that the volume is cut at, as an array of tables `[[clip]]`.
             #[serde(rename = "clip", skip_serializing_if = "Vec::is_empty")]
             pub clips: Vec<ClipSettings>,
+            /// Lights on surfaces, as an array of tables `[[light]]`.
+            #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
+            pub lights: Vec<LightSettings>,
         }
 
         /// The options of all sections.
@@ -96,7 +103,8 @@ macro_rules! sections {
             pub fn check(&self) -> Result<()> {
                 $(self.$name.check()?;)*
                 self.meshes.iter().try_for_each(MeshSettings::check)?;
-                clip::check(&self.clips)
+                clip::check(&self.clips)?;
+                light::check(&self.lights)
             }
         }
     };
@@ -139,6 +147,7 @@ sections! {
     transfer: TransferSettings, TransferOptions;
     camera: CameraSettings, CameraOptions;
     layers: LayersSettings, LayersOptions;
+    surface: SurfaceSettings, SurfaceOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;

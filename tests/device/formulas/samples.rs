@@ -115,6 +115,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         projection: projection::of(&scene.settings),
         fused: false,
         levels: Levels::default(),
+        surface_values: &[],
     }
 }
 

@@ -7,13 +7,14 @@ use super::scenes::{Shot, differing};
 /// Largest difference between a frame in f32 and the same in f64: some hundred rounded samples.
 pub const SAME_SUM: f64 = 2e-5;
 
-/// The largest difference over decided pixels, or where it is more than rounding explains.
+/// The largest difference over decided pixels, beyond what the twin states of each, or where it is more than rounding explains.
 pub fn difference(picture: &[[f32; 4]], twin: &CpuFrame, rounding: f64) -> Result<f64, String> {
     let mut largest = 0.0f64;
     let mut worst = String::new();
     for (i, (found, rule)) in picture.iter().zip(&twin.pixels).enumerate().filter(|(i, _)| !twin.undecided[*i]) {
-        let off = (0..4).map(|c| (f64::from(found[c]) - rule[c]).abs()).fold(0.0, f64::max);
-        if off > largest || off.is_nan() {
+        let apart = (0..4).map(|c| (f64::from(found[c]) - rule[c]).abs()).fold(0.0, f64::max);
+        let off = (apart - twin.rounding[i]).max(0.0);
+        if off > largest || apart.is_nan() {
             largest = off;
             worst = format!("pixel {i} is {found:?}, its twin {rule:?}");
         }
@@ -39,6 +40,10 @@ pub fn held(shot: &Shot, twin: &CpuFrame, stated: f64) -> Result<f64, String> {
                 return Err(format!("{has}, {undecided} are undecided"));
             }
         }
+    }
+    if counts.light.abs_diff(twin.counts.light) > undecided {
+        let (found, rule) = (counts.light, twin.counts.light);
+        return Err(format!("{found} rays are lit, of its twin {rule}, and {undecided} are undecided"));
     }
     Ok(largest)
 }

@@ -18,15 +18,14 @@ use depthleap::scene::settings::{DepthFormat, Filter, Formats};
 use depthleap::vulkan::{Device, vk};
 
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
-use super::law::trusted;
 use super::matrix_scenes;
-use super::scenes::{Shot, Stage, checked, forms, forms_here};
-use crate::harness::{Test, test};
+use super::scenes::{Shot, Stage, checked, forms, forms_here, right_forms};
+use crate::harness::{Test, some_forms, test};
 
 /// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
 const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthFormat::D16];
 
-/// Scenes that are drawn in every format of the depth buffer, and on every driver in every form: the only ones whose marks differ
+/// Scenes that are drawn in every form on every driver, and in every format of the depth buffer: the only ones whose marks differ
 /// from each other, by their number, by what they say and by who writes them anew.
 const IN_EVERY_FORMAT: [&str; 5] = [
     "as it is",
@@ -125,12 +124,17 @@ impl Runs<'_> {
         if !method.on_device {
             return difference(&rule.picture, &twin, SAME_SUM + stated(&scene, rule)).map(drop);
         }
-        let asked = if depths.len() > 1 { forms } else { forms_here };
-        let mut forms = asked(self.device, method.name());
-        forms.retain(|form| trusted(self.device, method.name(), *form));
+        let every = depths.len() > 1;
+        let forms = if every { right_forms(self.device, method.name()) } else { forms_here(self.device, &scene) };
         let mut first = None;
-        for form in forms {
-            for depth in if form.is_some() { depths } else { &depths[..1] } {
+        for (i, form) in forms.into_iter().enumerate() {
+            let depths = match form {
+                None => &depths[..1],
+                // Each form in one format, where another driver draws them in all.
+                Some(_) if some_forms() => &depths[i % depths.len()..][..1],
+                Some(_) => depths,
+            };
+            for depth in depths {
                 let shot = self.stage.shoot(&with_depth(&scene, *depth), form);
                 self.frames += 1;
                 let first = first.get_or_insert_with(|| counts(&shot).clone());

@@ -10,7 +10,6 @@ use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Last, Offset, Settings};
 use depthleap::vulkan::Device;
 
-use super::law::trusted;
 use super::scenes::{Stage, VIEWS, by, differing, exactly, forms, forms_here, scene, seen};
 use crate::harness::{Need, Test, test};
 
@@ -90,7 +89,7 @@ fn skipping(device: &Arc<Device>, scene: &Scene) {
         for row in METHODS.into_iter().filter(|row| row.on_device) {
             let scene = by(&scene, row.name());
             let mut counts = None;
-            for form in forms_here(device, row.name()).into_iter().filter(|form| trusted(device, row.name(), *form)) {
+            for form in forms_here(device, &scene) {
                 let shot = stage.shoot(&scene, form);
                 let name = format!("{}, {}, {}", row.name, form.map_or_else(String::new, Form::name), view.0);
                 let differs = differing(&shot.picture, &rules[usize::from(row.ends_rays)]);

@@ -1,0 +1,25 @@
+// Iso-surfaces: which values are on one [KW03 §2.2, Weiler03 "Isosurface Ray Casting", Thesis ch. 5 §3.2].
+// Twin: src/twin/surface.rs; the values are those of src/projection/surface.rs.
+
+struct SurfaceLevel {
+    // Linear, not lit.
+    vec4 color;
+    // The values that are on the surface (units of the volume texture), from the one to the other.
+    float from;
+    float to;
+};
+
+// By rising values.
+layout(set = 0, binding = 19, std430) readonly buffer SurfaceLevels {
+    SurfaceLevel list[];
+} surface_levels;
+
+// The surface that a value is on, the last of several; -1 where it is on none.
+int level_of(float value) {
+    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
+        if (surface_levels.list[i].from <= value && value <= surface_levels.list[i].to) {
+            return i;
+        }
+    }
+    return -1;
+}

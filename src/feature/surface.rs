@@ -1,0 +1,106 @@
+//! Iso-surfaces, and the lights on them.
+
+use crate::error::{Error, Result};
+use crate::part::Constant;
+use crate::part::resource::Resource;
+use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::projection::{self, COMPOSITE};
+use crate::resource;
+use crate::scene::Scene;
+use crate::scene::settings::{Filter, Offset, Refine};
+
+/// Iso-surfaces that rays look for in place of colours [KW03 §2.2, Thesis ch. 5 §3.2].
+pub const ISO_SURFACE: Feature = Feature {
+    with: Some("SURFACE"),
+    reads: |_| vec![resource::SURFACE_LEVELS],
+    ..Feature::at(Hook::Sample, "iso-surface", |context| match context.scene.surface {
+        Some(_) if context.passes > 0 => Ok(()),
+        _ => Err(Why::Untold),
+    })
+};
+
+/// Red, green and blue of lights that differ.
+pub const LIGHT_COLORS: Feature = Feature::of_frame("colours of lights", |context| match context.has(&ISO_SURFACE) {
+    false => Err(Why::Untold),
+    true if context.plans() && context.scene.surface_lights().iter().all(|light| light.is_white()) => {
+        Err("every light is white".into())
+    }
+    true => Ok(()),
+});
+
+/// What rays gather: colours, or places on a surface.
+pub fn gathered(context: &Context) -> Resource {
+    if context.has(&ISO_SURFACE) { resource::SURFACE_HIT } else { resource::ACCUMULATED }
+}
+
+/// The lights as the lighting pass reads them.
+pub fn lights(context: &Context) -> Resource {
+    if context.has(&LIGHT_COLORS) { resource::LIGHTS } else { resource::WHITE_LIGHTS }
+}
+
+/// Of `lighting.frag` and `phong.glsl`: how the place of a surface is found, and whether lights are white.
+pub fn lighting_constants(context: &Context) -> Vec<Constant> {
+    let refine = context.scene.surface.as_ref().map_or_else(Refine::default, |surface| surface.refine);
+    let code = match refine {
+        Refine::None => 0,
+        Refine::Linear => 1,
+        Refine::Exact => 2,
+    };
+    vec![("REFINE", code), ("WHITE_LIGHTS", u32::from(!context.has(&LIGHT_COLORS)))]
+}
+
+/// Whether a scene's surfaces can be drawn as it asks.
+///
+/// # Errors
+/// When what else the scene asks for has no meaning with surfaces.
+pub fn check(scene: &Scene) -> Result<()> {
+    let (settings, row) = (&scene.settings, projection::of(&scene.settings));
+    let Some(surface) = &scene.surface else {
+        return match scene.lights.is_empty() {
+            true => Ok(()),
+            false => refuse(
+                "light",
+                "has nothing to shine on",
+                "give an iso-surface (--iso, [surface]), or leave out [[light]]",
+            ),
+        };
+    };
+    let sampling = &settings.sampling;
+    let transparent = settings.surface.levels.iter().find(|level| level.opacity < 1.0);
+    match () {
+        () if row.name != COMPOSITE.name => {
+            let input = format!("projection.kind (--projection {})", row.name);
+            refuse(&input, "shows values, and a surface is where one is, not how large", "use composite with surfaces")
+        }
+        () if sampling.preintegrates() => refuse(
+            "sampling.classification (--classification pre-integrated)",
+            "makes colours of the values between samples, and surfaces have one of their own",
+            "use post with surfaces",
+        ),
+        () if sampling.offset != Offset::Left => refuse(
+            "sampling.offset (--offset midpoint)",
+            "takes no sample where a ray begins, and surfaces are sought from there on",
+            "use left with surfaces",
+        ),
+        () if scene.field.holes.is_some() => refuse(
+            "volume.nan (--nan hole)",
+            "leaves cells without values, and no surface goes through them",
+            "use --nan replace with surfaces",
+        ),
+        () if sampling.filter == Filter::Nearest && surface.refine != Refine::None => refuse(
+            "sampling.filter (--filter nearest)",
+            "has no values between voxels, where the place of a surface could be refined",
+            "use --refine none, or another filter",
+        ),
+        () if transparent.is_some() => refuse(
+            "surface.levels",
+            "has a surface with an opacity below 1, and rays of several passes end at the first surface that they meet",
+            "give opacity = 1, or leave it out",
+        ),
+        () => Ok(()),
+    }
+}
+
+fn refuse(input: &str, problem: &str, remedy: &str) -> Result<()> {
+    Err(Error::usage(input, problem, remedy))
+}

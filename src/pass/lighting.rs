@@ -1,0 +1,36 @@
+//! The lighting pass of iso-surfaces, once for all rays [Thesis ch. 5 §3.2].
+
+use super::constants;
+use crate::feature::{self, surface};
+use crate::geometry::BOX_FRONT;
+use crate::math::blend::Blend;
+use crate::part::access::Usage;
+use crate::part::rows::{Context, Hook};
+use crate::part::{Draw, Group, Step};
+use crate::resource;
+use crate::twin;
+
+/// Puts the lit colours of surfaces under what is in front of them.
+pub fn lighting(context: &Context) -> Step {
+    let accesses = vec![
+        Usage::Vertices.of(resource::BOX),
+        Usage::Sampled.of(resource::FRAME),
+        Usage::Sampled.of(resource::ENTRY),
+        Usage::Sampled.of(resource::DIRECTION),
+        Usage::Sampled.of(resource::VOLUME),
+        Usage::Sampled.of(resource::SURFACE_HIT),
+        Usage::Sampled.of(resource::SURFACE_LEVELS),
+        Usage::Sampled.of(surface::lights(context)),
+        Usage::Color.of(resource::ACCUMULATED),
+    ];
+    let mut draw = Draw::plain(&BOX_FRONT, "lighting.frag", twin::lighting::lighting);
+    draw.blend = Blend::Over;
+    draw.specialize([constants::samples(context.scene)]);
+    let sampling = feature::constants(context, Hook::Sample);
+    draw.specialize(sampling.into_iter().filter(|(name, _)| SAMPLING.contains(name)));
+    draw.specialize(surface::lighting_constants(context));
+    Step::drawn("lighting".to_owned(), Group::Light, 0, accesses, draw)
+}
+
+/// Of the constants of samples, those that say what a value is.
+const SAMPLING: [&str; 2] = ["FILTER", "EXTRA_FETCHES"];

@@ -1,0 +1,103 @@
+//! Lights, and what they make of a colour: the illumination model of Phong [Thesis §4.2.1].
+
+use glam::{DQuat, DVec3};
+
+use super::Scene;
+
+/// A light. Colours are linear, and hold how much of it takes part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    pub place: LightPlace,
+    pub ambient: [f64; 3],
+    pub diffuse: [f64; 3],
+    pub specular: [f64; 3],
+    /// The exponent of the specular part.
+    pub shininess: f64,
+}
+
+/// Where a light is, in volume space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightPlace {
+    /// Far away, in that direction of length 1.
+    Direction(DVec3),
+    Position(DVec3),
+}
+
+/// The headlight's part that shows where a surface is seen from the side, as that of polygons.
+const HEADLIGHT_AMBIENT: f64 = 0.3;
+
+/// A point of a surface, and from where it is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct LitPoint {
+    /// Volume space.
+    pub place: DVec3,
+    /// Normal of any length; none where there is none.
+    pub normal: DVec3,
+    /// Direction to the eye, of length 1.
+    pub view: DVec3,
+}
+
+impl Light {
+    /// A white light at the eye.
+    pub fn headlight(eye: DVec3) -> Self {
+        Self {
+            place: LightPlace::Position(eye),
+            ambient: [HEADLIGHT_AMBIENT; 3],
+            diffuse: [1.0 - HEADLIGHT_AMBIENT; 3],
+            specular: [0.0; 3],
+            shininess: 1.0,
+        }
+    }
+
+    /// The same light in other axes.
+    pub fn turned(self, turn: DQuat) -> Self {
+        let place = match self.place {
+            LightPlace::Direction(way) => LightPlace::Direction(turn * way),
+            LightPlace::Position(point) => LightPlace::Position(turn * point),
+        };
+        Self { place, ..self }
+    }
+
+    /// The direction from a point to the light, of length 1; none of a light in that very point.
+    pub fn from(&self, point: DVec3) -> Option<DVec3> {
+        match self.place {
+            LightPlace::Direction(way) => Some(way),
+            LightPlace::Position(light) => (light - point).try_normalize(),
+        }
+    }
+
+    /// Whether it has no colour.
+    pub fn is_white(&self) -> bool {
+        let white = |[r, g, b]: [f64; 3]| r == g && g == b;
+        white(self.ambient) && white(self.diffuse) && white(self.specular)
+    }
+}
+
+/// A surface of that colour in all lights. Both of its sides are lit: its normal is turned to the eye. Without a normal, and by
+/// a light in the point itself or behind the surface, it has the ambient part alone; the specular part does not take the
+/// surface's colour, and is 0 where the diffuse one is [Thesis §4.2.1].
+pub fn lit(color: [f64; 3], lights: &[Light], point: &LitPoint) -> [f64; 3] {
+    let normal = point.normal.try_normalize().map(|n| if n.dot(point.view) < 0.0 { -n } else { n });
+    let mut sum = [0.0; 3];
+    for light in lights {
+        let facing = normal.zip(light.from(point.place)).map(|(n, way)| (n, way, n.dot(way)));
+        let (diffuse, specular) = match facing {
+            Some((normal, way, facing)) if facing > 0.0 => {
+                let halfway = (way + point.view).normalize_or_zero();
+                (facing, normal.dot(halfway).max(0.0).powf(light.shininess))
+            }
+            _ => (0.0, 0.0),
+        };
+        for c in 0..3 {
+            sum[c] += color[c] * (light.ambient[c] + light.diffuse[c] * diffuse) + light.specular[c] * specular;
+        }
+    }
+    sum
+}
+
+impl Scene {
+    /// The lights of its surfaces, in the volume's axes: a headlight where none are given.
+    pub fn surface_lights(&self) -> Vec<Light> {
+        if self.lights.is_empty() { vec![Light::headlight(self.camera.eye)] } else { self.lights.clone() }
+    }
+}

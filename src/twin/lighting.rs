@@ -1,0 +1,145 @@
+//! Twin of `glsl/lighting.frag`: the exact place of a surface, its normal, and its colour in all lights [Thesis ch. 5 §3.2].
+
+use glam::DVec3;
+
+use super::{Effect, Pixel, Twin};
+use crate::math::blend::Blend;
+use crate::projection::{first_met, on_surface};
+use crate::scene::light::{Light, LightPlace, LitPoint, lit};
+use crate::scene::settings::Refine;
+use crate::truth::exact::ExactIntegrator;
+
+/// Colours that f32 may be off by more than this are left undecided.
+const LOOSE: f64 = 1e-3;
+
+/// What f32 takes from a colour by a few products, and devices from an exponential: relative.
+const COLOR_ROUNDING: f64 = 1e-5;
+
+/// What f32 takes from a cosine of two vectors that are made of length 1.
+const COSINE_ROUNDING: f64 = 3e-7;
+
+/// What devices take from a power near 1 by their exponential.
+const POWER_ROUNDING: f64 = 4e-6;
+
+/// Puts the lit colour of the surface that the ray has met under what is in front of it.
+pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    let [front, back, _, met] = pixel.hit;
+    if met == 0.0 {
+        return Effect::Discarded;
+    }
+    let (place, level) = twin.met(pixel, [front, back]);
+    let color = twin.scene.surface.as_ref().map_or([0.0; 3], |surface| surface.levels[level].color);
+    let lights = twin.scene.surface_lights();
+    let shaded = twin.shaded(pixel, place.steps, color, &lights);
+    // A place that is off has another normal.
+    let moved = [-place.rounding, place.rounding].map(|by| twin.shaded(pixel, place.steps + by, color, &lights).color);
+    let apart = |other: &[f64; 3]| (0..3).map(|c| (other[c] - shaded.color[c]).abs()).fold(0.0, f64::max);
+    let rounding = moved.iter().map(apart).fold(shaded.rounding, f64::max);
+    pixel.rounding = pixel.rounding.max(rounding);
+    pixel.undecided |= rounding > LOOSE;
+    let [r, g, b] = shaded.color;
+    pixel.accumulated = Blend::Over.apply(pixel.accumulated, [r, g, b, 1.0]);
+    Effect::Silent
+}
+
+/// A place on a ray, in steps, and how far one that is found in f32 may be from it.
+struct RoundedPlace {
+    steps: f64,
+    rounding: f64,
+}
+
+/// A lit colour, and how far f32 may be off at the very place.
+struct Shaded {
+    color: [f64; 3],
+    rounding: f64,
+}
+
+impl Twin<'_> {
+    /// The surface that is met first between two places, one in front of it and one on it, or twice where the ray begins; the number
+    /// of the surface. Undecided where f32 may find another surface.
+    fn met(&self, pixel: &mut Pixel, [front, back]: [f64; 2]) -> (RoundedPlace, usize) {
+        let (before, behind) = (self.value_at(pixel, front), self.value_at(pixel, back));
+        let near = |bound: &f64| (before.value - bound).abs() < before.rounding;
+        pixel.undecided |= self.surface_values.iter().flatten().any(near);
+        let at = |steps: f64, rounding: f64| RoundedPlace { steps, rounding };
+        let cut = self.cut_rounding(pixel) / self.voxels_in_step(pixel);
+        if let Some(level) = on_surface(self.surface_values, before.value) {
+            return (at(front, cut), level);
+        }
+        let Some((level, value)) = first_met(self.surface_values, before.value, behind.value) else {
+            // No hit is stored without a surface.
+            return (at(back, cut), 0);
+        };
+        let refine = self.scene.surface.as_ref().map_or_else(Refine::default, |surface| surface.refine);
+        let change = (behind.value - before.value).abs();
+        let place = match refine {
+            Refine::None => at(back, cut),
+            Refine::Linear => {
+                let share = ((value - before.value) / (behind.value - before.value)).clamp(0.0, 1.0);
+                let off = 2.0 * before.rounding.max(behind.rounding) / change;
+                at(front + share * (back - front), off * (back - front) + cut)
+            }
+            Refine::Exact => self.root(pixel, [front, back], value, before.value < value),
+        };
+        (at(place.steps, place.rounding.min(back - front)), level)
+    }
+
+    /// The first place between two others at which the interpolant is not below a value, or not above it where it falls.
+    fn root(&self, pixel: &Pixel, [front, back]: [f64; 2], value: f64, rises: bool) -> RoundedPlace {
+        let (field, step) = (&self.scene.field, self.step_length());
+        let entry = (pixel.entry - 0.5) * field.extent();
+        let values = if rises { [value, f64::INFINITY] } else { [f64::NEG_INFINITY, value] };
+        let integrator = ExactIntegrator::new(field, &self.scene.transfer);
+        let begin = entry + front * step * pixel.direction;
+        let found = integrator.first_within(begin, pixel.direction, (back - front) * step, &[values]);
+        let steps = found.map_or(back, |found| front + found.t / step);
+        let slope = found.map_or(0.0, |found| found.slope.abs() * step);
+        let rounding = self.value_at(pixel, steps).rounding;
+        let cut = self.cut_rounding(pixel) / self.voxels_in_step(pixel);
+        RoundedPlace { steps, rounding: if slope > 0.0 { 2.0 * rounding / slope + cut } else { back - front } }
+    }
+
+    /// The colour of a surface `steps` from the entry point.
+    fn shaded(&self, pixel: &mut Pixel, steps: f64, color: [f64; 3], lights: &[Light]) -> Shaded {
+        let (field, position) = (&self.scene.field, self.position_at(pixel, steps));
+        let (normal, off) = self.gradient_at(self.voxel(position));
+        let point = LitPoint { place: (position - 0.5) * field.extent(), normal, view: -pixel.direction };
+        let shaded = lit(color, lights, &point);
+        // How far the normal may be off, as an angle; one of no length at all has none.
+        let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
+        pixel.undecided |= normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(self.voxel(position));
+        let mut rounding = 0.0f64;
+        for light in lights {
+            let largest = |part: [f64; 3]| part.into_iter().fold(0.0, f64::max);
+            let shown = largest(std::array::from_fn(|c| color[c] * light.diffuse[c]));
+            // The steepest slope of cos(x)^n is below the root of n.
+            let steepest = light.shininess.sqrt().max(1.0);
+            let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
+            rounding += angle.min(2.0) * shown + largest(light.specular) * specular.min(1.0);
+            pixel.undecided |= angle > 0.0 && self.turns(light, &point, angle);
+        }
+        let brightest = shaded.into_iter().fold(0.0, f64::max);
+        Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest }
+    }
+
+    /// Whether a normal that is off by that angle may be turned the other way, or away from the light.
+    fn turns(&self, light: &Light, point: &LitPoint, angle: f64) -> bool {
+        let normal = point.normal.normalize_or_zero();
+        let reach = 2.0 * angle + COLOR_ROUNDING;
+        let sides = [Some(point.view), light.from(point.place)];
+        let beside = sides.into_iter().flatten().any(|way| normal.dot(way).abs() < reach);
+        // A light in the point itself may be on any side of it.
+        let near = matches!(light.place, LightPlace::Position(at) if at.distance(point.place) < COLOR_ROUNDING);
+        beside || near
+    }
+
+    /// Whether the field does not change about a place, so that differences are 0 in f32 too.
+    fn is_flat(&self, voxel: DVec3) -> bool {
+        let field = &self.scene.field;
+        let near = |by: f64| field.cell_at(voxel + by);
+        let cells = [near(-1.0), near(0.0), near(1.0)];
+        let mut values = cells.into_iter().flat_map(|cell| field.corners(cell)).map(|corner| field.values[corner]);
+        let first = values.next();
+        values.all(|value| Some(value) == first)
+    }
+}
