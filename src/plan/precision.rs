@@ -24,7 +24,7 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     }
     if scene.surface.is_some() {
         // A ray that misses a surface by a little has none of its colour.
-        return if error == 0.0 { 0.0 } else { f64::INFINITY };
+        return if error == 0.0 { 0.0 } else { brightest_surface(scene) };
     }
     let sampling = &scene.settings.sampling;
     let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
@@ -37,6 +37,18 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     let ended = if ends { 1.0 - sampling.termination } else { 0.0 };
     (brightest * (f64::from(samples) * opacity + ended) + color + brightest * rounding(scene, samples, passes))
         .min(brightest)
+}
+
+/// The brightest that a surface of a scene may be, or its opacity.
+fn brightest_surface(scene: &Scene) -> f64 {
+    let levels = scene.surface.iter().flat_map(|surface| &surface.levels);
+    let lights = scene.surface_lights();
+    let channel = |color: &[f64; 3], c: usize| -> f64 {
+        lights.iter().map(|light| color[c] * (light.ambient[c] + light.diffuse[c]) + light.specular[c]).sum()
+    };
+    levels
+        .flat_map(|level| (0..3).map(move |c| (level.color, c)))
+        .fold(1.0, |most, (color, c)| most.max(channel(&color, c)))
 }
 
 /// What samples and blending of both pictures take from a sum about 1.
