@@ -11,7 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [VALUES], [SURFACE]
+//@takes [VALUES], [SURFACE], [LIT]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL]
 
 #include "shared/frame.glsl"
@@ -29,6 +29,10 @@
 #endif
 #ifdef SURFACE
 #include "shared/surface.glsl"
+#endif
+#ifdef LIT
+#include "shared/gradient.glsl"
+#include "shared/phong.glsl"
 #endif
 #include "shared/segment.glsl"
 

@@ -16,6 +16,7 @@ mod holes;
 mod interpolation;
 mod last_sample;
 pub mod layers;
+pub mod lights;
 mod opacity_correction;
 mod planes;
 mod preintegration;
@@ -45,14 +46,14 @@ use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
 use layers::{CLIPPED, LAYER_BEFORE, LAYER_BEHIND};
+use lights::{LIGHT_COLORS, LIT_SAMPLES};
 use opacity_correction::OPACITY_CORRECTION;
 use planes::CLIP_PLANES;
 use preintegration::PREINTEGRATION;
-use surface::LIGHT_COLORS;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 28] = [
+pub const FEATURES: [&Feature; 29] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -80,6 +81,7 @@ pub const FEATURES: [&Feature; 28] = [
     &APART,
     &CLIP_PLANES,
     &ISO_SURFACE,
+    &LIT_SAMPLES,
     &LIGHT_COLORS,
 ];
 

@@ -1,4 +1,4 @@
-//! Iso-surfaces, and the lights on them.
+//! Iso-surfaces.
 
 use crate::error::{Error, Result};
 use crate::part::Constant;
@@ -19,34 +19,19 @@ pub const ISO_SURFACE: Feature = Feature {
     })
 };
 
-/// Red, green and blue of lights that differ.
-pub const LIGHT_COLORS: Feature = Feature::of_frame("colours of lights", |context| match context.has(&ISO_SURFACE) {
-    false => Err(Why::Untold),
-    true if context.plans() && context.scene.surface_lights().iter().all(|light| light.is_white()) => {
-        Err("every light is white".into())
-    }
-    true => Ok(()),
-});
-
 /// What rays gather: colours, or places on a surface.
 pub fn gathered(context: &Context) -> Resource {
     if context.has(&ISO_SURFACE) { resource::SURFACE_HIT } else { resource::ACCUMULATED }
 }
 
-/// The lights as the lighting pass reads them.
-pub fn lights(context: &Context) -> Resource {
-    if context.has(&LIGHT_COLORS) { resource::LIGHTS } else { resource::WHITE_LIGHTS }
-}
-
-/// Of `lighting.frag` and `phong.glsl`: how the place of a surface is found, and whether lights are white.
-pub fn lighting_constants(context: &Context) -> Vec<Constant> {
-    let refine = context.scene.surface.as_ref().map_or_else(Refine::default, |surface| surface.refine);
-    let code = match refine {
+/// Of `lighting.frag`: how the place of a surface is found.
+pub fn refine(context: &Context) -> Constant {
+    let code = match context.scene.settings.surface.refine {
         Refine::None => 0,
         Refine::Linear => 1,
         Refine::Exact => 2,
     };
-    vec![("REFINE", code), ("WHITE_LIGHTS", u32::from(!context.has(&LIGHT_COLORS)))]
+    ("REFINE", code)
 }
 
 /// Whether a scene's surfaces can be drawn as it asks.
@@ -55,16 +40,9 @@ pub fn lighting_constants(context: &Context) -> Vec<Constant> {
 /// When what else the scene asks for has no meaning with surfaces.
 pub fn check(scene: &Scene) -> Result<()> {
     let (settings, row) = (&scene.settings, projection::of(&scene.settings));
-    let Some(surface) = &scene.surface else {
-        return match scene.lights.is_empty() {
-            true => Ok(()),
-            false => refuse(
-                "light",
-                "has nothing to shine on",
-                "give an iso-surface (--iso, [surface]), or leave out [[light]]",
-            ),
-        };
-    };
+    if scene.surface.is_none() {
+        return Ok(());
+    }
     let sampling = &settings.sampling;
     let transparent = settings.surface.levels.iter().find(|level| level.opacity < 1.0);
     match () {
@@ -87,7 +65,7 @@ pub fn check(scene: &Scene) -> Result<()> {
             "leaves cells without values, and no surface goes through them",
             "use --nan replace with surfaces",
         ),
-        () if sampling.filter == Filter::Nearest && surface.refine != Refine::None => refuse(
+        () if sampling.filter == Filter::Nearest && settings.surface.refine != Refine::None => refuse(
             "sampling.filter (--filter nearest)",
             "has no values between voxels, where the place of a surface could be refined",
             "use --refine none, or another filter",

@@ -9,13 +9,15 @@ use crate::plan::Plan;
 use crate::projection::{self, surface_values};
 use crate::scene::Scene;
 use crate::scene::texture::{TextureChoice, TextureMap};
-use crate::twin::{Effect, Pixel, Twin};
+use crate::twin::{Effect, MetSurface, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
 #[derive(Clone, Debug)]
 pub struct CpuFrame {
     /// Premultiplied RGBA, row 0 on top.
     pub pixels: Vec<[f64; 4]>,
+    /// The iso-surface that each ray has met.
+    pub surfaces: Vec<Option<MetSurface>>,
     /// How far f32 may be from each pixel, beyond what it takes from sums of samples.
     pub rounding: Vec<f64>,
     /// Pixels that f32 cannot decide (see [`Pixel::undecided`]), or the rasteriser.
@@ -101,6 +103,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
     let surface_values: Vec<[f64; 2]> =
         surface_values(scene, map).into_iter().map(|values| values.map(|value| map.x(value))).collect();
+    let lights = scene.shining();
     let twin = Twin {
         scene,
         rays: plan.view.rays,
@@ -112,6 +115,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         fused: plan.method.fused,
         levels: projection.levels_in_x(scene),
         surface_values: &surface_values,
+        lights: &lights,
     };
     let raster = 0.5f64.powi(sub_pixel_bits as i32);
     let rows: Vec<(CpuFrame, Vec<u64>)> =
@@ -120,6 +124,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let mut fragments = vec![0; plan.frame().len()];
     for (row, of_row) in rows {
         frame.pixels.extend(row.pixels);
+        frame.surfaces.extend(row.surfaces);
         frame.rounding.extend(row.rounding);
         frame.undecided.extend(row.undecided);
         frame.outline += row.outline;
@@ -134,6 +139,7 @@ impl CpuFrame {
     fn empty(plan: &Plan) -> Self {
         Self {
             pixels: Vec::new(),
+            surfaces: Vec::new(),
             rounding: Vec::new(),
             undecided: Vec::new(),
             outline: 0,
@@ -178,6 +184,7 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         }
         let on_outline = hits.undecided();
         frame.pixels.push(pixel.accumulated);
+        frame.surfaces.push(pixel.surface);
         frame.rounding.push(pixel.rounding);
         frame.undecided.push(pixel.undecided || on_outline);
         frame.outline += u64::from(on_outline);

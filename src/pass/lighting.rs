@@ -1,7 +1,7 @@
 //! The lighting pass of iso-surfaces, once for all rays [Thesis ch. 5 §3.2].
 
 use super::constants;
-use crate::feature::{self, surface};
+use crate::feature::{self, lights, surface};
 use crate::geometry::BOX_FRONT;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
@@ -20,7 +20,7 @@ pub fn lighting(context: &Context) -> Step {
         Usage::Sampled.of(resource::VOLUME),
         Usage::Sampled.of(resource::SURFACE_HIT),
         Usage::Sampled.of(resource::SURFACE_LEVELS),
-        Usage::Sampled.of(surface::lights(context)),
+        Usage::Sampled.of(lights::lights(context)),
         Usage::Color.of(resource::ACCUMULATED),
     ];
     let mut draw = Draw::plain(&BOX_FRONT, "lighting.frag", twin::lighting::lighting);
@@ -28,9 +28,9 @@ pub fn lighting(context: &Context) -> Step {
     draw.specialize([constants::samples(context.scene)]);
     let sampling = feature::constants(context, Hook::Sample);
     draw.specialize(sampling.into_iter().filter(|(name, _)| SAMPLING.contains(name)));
-    draw.specialize(surface::lighting_constants(context));
+    draw.specialize([surface::refine(context)]);
     Step::drawn("lighting".to_owned(), Group::Light, 0, accesses, draw)
 }
 
-/// Of the constants of samples, those that say what a value is.
-const SAMPLING: [&str; 2] = ["FILTER", "EXTRA_FETCHES"];
+/// Of the constants of samples, those that say what a value is, and what lights are.
+const SAMPLING: [&str; 3] = ["FILTER", "EXTRA_FETCHES", "WHITE_LIGHTS"];

@@ -155,6 +155,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     (method.takes)(scene)?;
     feature::layers::check(scene)?;
     feature::surface::check(scene)?;
+    feature::lights::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view);
     check_passes(scene, method, passes)?;

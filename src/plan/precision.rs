@@ -8,9 +8,9 @@
 //! Where a projection shows values, its row says what a difference in every sample becomes.
 
 use crate::projection::{self, OfValues};
-use crate::scene::Scene;
 use crate::scene::settings::{Alpha, Last};
 use crate::scene::transfer::Knot;
+use crate::scene::{Scene, Surface};
 use crate::twin::fused::blend_rounding;
 
 /// What f32 takes from a sum by each sample.
@@ -22,9 +22,10 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if let Some(values) = &projection::of(&scene.settings).values {
         return value_error(scene, values, error, samples, passes);
     }
-    if scene.surface.is_some() {
-        // A ray that misses a surface by a little has none of its colour.
-        return if error == 0.0 { 0.0 } else { brightest_surface(scene) };
+    if scene.surface.is_some() || !scene.lights.is_empty() {
+        // A ray that misses a surface by a little has none of its colour, and where values hardly change a gradient may point
+        // anywhere.
+        return if error == 0.0 { 0.0 } else { brightest_lit(scene) };
     }
     let sampling = &scene.settings.sampling;
     let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
@@ -39,16 +40,16 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
         .min(brightest)
 }
 
-/// The brightest that a surface of a scene may be, or its opacity.
-fn brightest_surface(scene: &Scene) -> f64 {
-    let levels = scene.surface.iter().flat_map(|surface| &surface.levels);
-    let lights = scene.surface_lights();
+/// The brightest that a surface or a sample of a scene with lights may be, or its opacity.
+fn brightest_lit(scene: &Scene) -> f64 {
+    let samples = || scene.transfer.knots().iter().map(|knot| knot.color).collect();
+    let surfaces = |surface: &Surface| surface.levels.iter().map(|level| level.color).collect();
+    let colors: Vec<[f64; 3]> = scene.surface.as_ref().map_or_else(samples, surfaces);
+    let lights = scene.shining();
     let channel = |color: &[f64; 3], c: usize| -> f64 {
         lights.iter().map(|light| color[c] * (light.ambient[c] + light.diffuse[c]) + light.specular[c]).sum()
     };
-    levels
-        .flat_map(|level| (0..3).map(move |c| (level.color, c)))
-        .fold(1.0, |most, (color, c)| most.max(channel(&color, c)))
+    colors.iter().flat_map(|color| (0..3).map(|c| channel(color, c))).fold(1.0, f64::max)
 }
 
 /// What samples and blending of both pictures take from a sum about 1.

@@ -43,7 +43,7 @@ static WHITE_LIGHTS_INFO: ResourceInfo = ResourceInfo {
 };
 
 fn light_rows(facts: &Facts, white: bool) -> Cow<'static, [u8]> {
-    bytemuck::cast_slice(&shared::light_rows(&facts.scene.surface_lights(), white)).to_vec().into()
+    bytemuck::cast_slice(&shared::light_rows(&facts.scene.shining(), white)).to_vec().into()
 }
 
 /// RES of rays that look for a surface: where they meet it.

@@ -96,8 +96,12 @@ pub fn lit(color: [f64; 3], lights: &[Light], point: &LitPoint) -> [f64; 3] {
 }
 
 impl Scene {
-    /// The lights of its surfaces, in the volume's axes: a headlight where none are given.
-    pub fn surface_lights(&self) -> Vec<Light> {
-        if self.lights.is_empty() { vec![Light::headlight(self.camera.eye)] } else { self.lights.clone() }
+    /// The lights that shine in the scene, in the volume's axes: on surfaces a headlight where none are given.
+    pub fn shining(&self) -> Vec<Light> {
+        if self.lights.is_empty() && self.surface.is_some() {
+            vec![Light::headlight(self.camera.eye)]
+        } else {
+            self.lights.clone()
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Iso-surfaces of a scene's field.
 
-use super::settings::{Find, Last, Refine, Settings, SurfaceLevel};
+use super::settings::{Find, Last, Settings, SurfaceLevel};
 use super::{Field, Scene, TransferFunction};
 
 /// Iso-surfaces that rays look for, in place of the volume's colours.
@@ -8,7 +8,6 @@ use super::{Field, Scene, TransferFunction};
 pub struct Surface {
     /// The surfaces, by rising values.
     pub levels: Vec<Level>,
-    pub refine: Refine,
 }
 
 /// A surface, among x.
@@ -44,7 +43,7 @@ impl Surface {
         };
         let mut levels: Vec<Level> = surface.asked().iter().map(level).collect();
         levels.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-        (!levels.is_empty()).then_some(Self { levels, refine: surface.refine })
+        (!levels.is_empty()).then_some(Self { levels })
     }
 }
 

@@ -152,7 +152,7 @@ impl<'a> ExactIntegrator<'a> {
         let (ranges, colors): (Vec<[f64; 2]>, Vec<[f64; 3]>) = levels.map(|level| (level.values, level.color)).unzip();
         let Some(found) = self.first_within(entry, direction, length, &ranges) else { return [0.0; 4] };
         let point = LitPoint { place: entry + found.t * direction, normal: found.gradient, view: -direction };
-        let [r, g, b] = lit(colors[found.range], &scene.surface_lights(), &point);
+        let [r, g, b] = lit(colors[found.range], &scene.shining(), &point);
         [r, g, b, 1.0]
     }
 

@@ -1,25 +1,13 @@
 //! Twin of `glsl/lighting.frag`: the exact place of a surface, its normal, and its colour in all lights [Thesis ch. 5 §3.2].
 
-use glam::DVec3;
-
-use super::{Effect, Pixel, Twin};
+use super::{Effect, MetSurface, Pixel, Twin};
 use crate::math::blend::Blend;
 use crate::projection::{first_met, on_surface};
-use crate::scene::light::{Light, LightPlace, LitPoint, lit};
 use crate::scene::settings::Refine;
 use crate::truth::exact::ExactIntegrator;
 
 /// Colours that f32 may be off by more than this are left undecided.
-const LOOSE: f64 = 1e-3;
-
-/// What f32 takes from a colour by a few products, and devices from an exponential: relative.
-const COLOR_ROUNDING: f64 = 1e-5;
-
-/// What f32 takes from a cosine of two vectors that are made of length 1.
-const COSINE_ROUNDING: f64 = 3e-7;
-
-/// What devices take from a power near 1 by their exponential.
-const POWER_ROUNDING: f64 = 4e-6;
+pub(super) const LOOSE: f64 = 1e-3;
 
 /// Puts the lit colour of the surface that the ray has met under what is in front of it.
 pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
@@ -29,14 +17,15 @@ pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     }
     let (place, level) = twin.met(pixel, [front, back]);
     let color = twin.scene.surface.as_ref().map_or([0.0; 3], |surface| surface.levels[level].color);
-    let lights = twin.scene.surface_lights();
-    let shaded = twin.shaded(pixel, place.steps, color, &lights);
+    let lights = twin.lights;
+    let shaded = twin.shaded(pixel, place.steps, color, lights);
     // A place that is off has another normal.
-    let moved = [-place.rounding, place.rounding].map(|by| twin.shaded(pixel, place.steps + by, color, &lights).color);
+    let moved = [-place.rounding, place.rounding].map(|by| twin.shaded(pixel, place.steps + by, color, lights).color);
     let apart = |other: &[f64; 3]| (0..3).map(|c| (other[c] - shaded.color[c]).abs()).fold(0.0, f64::max);
     let rounding = moved.iter().map(apart).fold(shaded.rounding, f64::max);
     pixel.rounding = pixel.rounding.max(rounding);
-    pixel.undecided |= rounding > LOOSE;
+    pixel.surface = Some(MetSurface { steps: place.steps, level, normal: shaded.normal });
+    pixel.undecided |= shaded.turns || rounding > LOOSE;
     let [r, g, b] = shaded.color;
     pixel.accumulated = Blend::Over.apply(pixel.accumulated, [r, g, b, 1.0]);
     Effect::Silent
@@ -45,12 +34,6 @@ pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
 /// A place on a ray, in steps, and how far one that is found in f32 may be from it.
 struct RoundedPlace {
     steps: f64,
-    rounding: f64,
-}
-
-/// A lit colour, and how far f32 may be off at the very place.
-struct Shaded {
-    color: [f64; 3],
     rounding: f64,
 }
 
@@ -70,9 +53,8 @@ impl Twin<'_> {
             // No hit is stored without a surface.
             return (at(back, cut), 0);
         };
-        let refine = self.scene.surface.as_ref().map_or_else(Refine::default, |surface| surface.refine);
         let change = (behind.value - before.value).abs();
-        let place = match refine {
+        let place = match self.scene.settings.surface.refine {
             Refine::None => at(back, cut),
             Refine::Linear => {
                 let share = ((value - before.value) / (behind.value - before.value)).clamp(0.0, 1.0);
@@ -97,49 +79,5 @@ impl Twin<'_> {
         let rounding = self.value_at(pixel, steps).rounding;
         let cut = self.cut_rounding(pixel) / self.voxels_in_step(pixel);
         RoundedPlace { steps, rounding: if slope > 0.0 { 2.0 * rounding / slope + cut } else { back - front } }
-    }
-
-    /// The colour of a surface `steps` from the entry point.
-    fn shaded(&self, pixel: &mut Pixel, steps: f64, color: [f64; 3], lights: &[Light]) -> Shaded {
-        let (field, position) = (&self.scene.field, self.position_at(pixel, steps));
-        let (normal, off) = self.gradient_at(self.voxel(position));
-        let point = LitPoint { place: (position - 0.5) * field.extent(), normal, view: -pixel.direction };
-        let shaded = lit(color, lights, &point);
-        // How far the normal may be off, as an angle; one of no length at all has none.
-        let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
-        pixel.undecided |= normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(self.voxel(position));
-        let mut rounding = 0.0f64;
-        for light in lights {
-            let largest = |part: [f64; 3]| part.into_iter().fold(0.0, f64::max);
-            let shown = largest(std::array::from_fn(|c| color[c] * light.diffuse[c]));
-            // The steepest slope of cos(x)^n is below the root of n.
-            let steepest = light.shininess.sqrt().max(1.0);
-            let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
-            rounding += angle.min(2.0) * shown + largest(light.specular) * specular.min(1.0);
-            pixel.undecided |= angle > 0.0 && self.turns(light, &point, angle);
-        }
-        let brightest = shaded.into_iter().fold(0.0, f64::max);
-        Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest }
-    }
-
-    /// Whether a normal that is off by that angle may be turned the other way, or away from the light.
-    fn turns(&self, light: &Light, point: &LitPoint, angle: f64) -> bool {
-        let normal = point.normal.normalize_or_zero();
-        let reach = 2.0 * angle + COLOR_ROUNDING;
-        let sides = [Some(point.view), light.from(point.place)];
-        let beside = sides.into_iter().flatten().any(|way| normal.dot(way).abs() < reach);
-        // A light in the point itself may be on any side of it.
-        let near = matches!(light.place, LightPlace::Position(at) if at.distance(point.place) < COLOR_ROUNDING);
-        beside || near
-    }
-
-    /// Whether the field does not change about a place, so that differences are 0 in f32 too.
-    fn is_flat(&self, voxel: DVec3) -> bool {
-        let field = &self.scene.field;
-        let near = |by: f64| field.cell_at(voxel + by);
-        let cells = [near(-1.0), near(0.0), near(1.0)];
-        let mut values = cells.into_iter().flat_map(|cell| field.corners(cell)).map(|corner| field.values[corner]);
-        let first = values.next();
-        values.all(|value| Some(value) == first)
     }
 }

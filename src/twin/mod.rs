@@ -12,6 +12,7 @@ pub mod lighting;
 pub mod main_pass;
 pub mod near_neighbor;
 pub mod peel;
+pub mod phong;
 pub mod samples;
 pub mod section;
 pub mod segment;
@@ -23,8 +24,8 @@ use glam::DVec3;
 
 use crate::math::ray::ViewRays;
 use crate::projection::{Levels, Projection};
-use crate::scene::Scene;
 use crate::scene::mesh::MOST_CLIPS;
+use crate::scene::{Light, Scene};
 use crate::structure::blocks::Blocks;
 use crate::structure::grid::DistanceField;
 use crate::truth::preintegrated::PreintegratedTable;
@@ -53,6 +54,8 @@ pub struct Twin<'a> {
     pub levels: Levels,
     /// The values that are on each surface, as x; none where colours are shown.
     pub surface_values: &'a [[f64; 2]],
+    /// Lights on surfaces or on samples, in the volume's axes.
+    pub lights: &'a [Light],
 }
 
 /// A surface that a ray meets.
@@ -64,6 +67,17 @@ pub struct Surface {
     pub color: [f64; 4],
     /// Whether clip geometry keeps the volume behind it.
     pub kept: bool,
+}
+
+/// Where a ray meets an iso-surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetSurface {
+    /// Steps from the entry point.
+    pub steps: f64,
+    /// The number of the surface, by rising values.
+    pub level: usize,
+    /// Along the gradient by central differences, of any length, volume space.
+    pub normal: DVec3,
 }
 
 /// One pixel of every image of the frame.
@@ -80,6 +94,8 @@ pub struct Pixel {
     pub accumulated: [f64; 4],
     /// RES of rays that look for a surface: steps to the places between which they meet it, 0, and 1 where there is one.
     pub hit: [f64; 4],
+    /// The iso-surface that the ray has met, once it is lit.
+    pub surface: Option<MetSurface>,
     /// The depth buffer.
     pub stored: f64,
     /// Fronts less backs of each clip mesh that the ray meets.

@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
+use super::lighting::LOOSE;
 use super::samples::FACE_ROUNDING;
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::{nearest, trilinear};
 use crate::math::opacity::corrected_opacity;
 use crate::projection::{Ends, OfValues, SampleWeight};
+use crate::scene::Light;
 use crate::scene::settings::{Alpha, Filter, Last};
 use crate::truth::preintegrated::{PreintegratedTable, part_of};
 
@@ -26,12 +28,27 @@ impl Twin<'_> {
         }
         let value = self.value(pixel, voxel);
         let [r, g, b, a] = transfer.evaluate(value);
+        let (lit, rounding) = if a > 0.0 { self.lit_sample(pixel, i, [r, g, b]) } else { ([r, g, b], 0.0) };
+        let [r, g, b] = lit;
         let steps = self.extent_of_sample(pixel, i);
         let alpha = match sampling.alpha {
             Alpha::Exponential => corrected_opacity(a, steps * sampling.step / transfer.reference),
             Alpha::Paper => (a * steps).min(1.0),
         };
+        pixel.rounding += rounding * alpha;
+        pixel.undecided |= pixel.rounding > LOOSE;
         [r * alpha, g * alpha, b * alpha, alpha]
+    }
+
+    /// The colour of sample `i` in the lights of the scene, where it has some, and how far f32 may be from it.
+    fn lit_sample(&self, pixel: &Pixel, i: u32, color: [f64; 3]) -> ([f64; 3], f64) {
+        if self.lights.is_empty() {
+            return (color, 0.0);
+        }
+        let shaded = self.shaded(pixel, self.steps_to(i), color, self.lights);
+        let parts = |light: &Light| (0..3).map(|c| color[c] * light.diffuse[c] + light.specular[c]).fold(0.0, f64::max);
+        let all: f64 = self.lights.iter().map(parts).sum();
+        (shaded.color, if shaded.turns { all } else { shaded.rounding.min(all) })
     }
 
     /// Whether `voxel` lies in a cell that has no values.

@@ -22,7 +22,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 42] = [
+const KINDS: [(&str, Change); 44] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -132,6 +132,21 @@ const KINDS: [(&str, Change); 42] = [
     ("an iso-surface, and segments that end at a mesh, drawn apart", |s| {
         (s.surface.iso, s.layers.partial, s.layers.most) = (Some(90.0), PartialSegments::Apart, 2);
         s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+    }),
+    ("samples in white light", |s| {
+        s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
+    }),
+    ("samples in coloured lights, with a mesh", |s| {
+        s.lights = vec![
+            LightSettings {
+                direction: Some([-3.0, 2.0, 1.0]),
+                color: [1.0, 0.3, 0.2],
+                specular: 0.8,
+                ..Default::default()
+            },
+            LightSettings { position: Some([0.7, -0.9, 0.8]), color: [0.2, 0.3, 1.0], ..Default::default() },
+        ];
+        (s.sampling.last, s.meshes) = (Last::Partial, vec![cuboid(0.5, 0.4)]);
     }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);

@@ -29,6 +29,10 @@ fn vanishes_at_faces(scene: &Scene) -> bool {
 
 /// The order of the sum in the step, of a smooth scene and a ray that is not ended early.
 pub fn expected_order(scene: &Scene) -> Option<f64> {
+    // A picture is off where rays meet another surface, not by how far they are from the right one.
+    if scene.surface.is_some() {
+        return None;
+    }
     let sampling = &scene.settings.sampling;
     let projection = projection::of(&scene.settings);
     if projection.shows_values() {
@@ -60,6 +64,19 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
             remarks.push(words.to_owned());
         }
     };
+    if scene.surface.is_some() {
+        say(
+            true,
+            "a surface whose values lie between two samples alone is not seen, and the ray meets the next one: such pixels are off by a \
+             whole colour, and they are fewer the smaller the step is",
+        );
+        say(
+            true,
+            "normals are differences over two voxels, and those of the exact picture the gradient of the interpolant: that does not \
+             fall with the step",
+        );
+        return remarks;
+    }
     let row = projection::of(&scene.settings);
     if let Some(values) = &row.values {
         say(true, values.remark);

@@ -66,6 +66,14 @@ impl AccuracyJob {
             stepped.check()?;
         }
         let scene = read::scene(settings)?;
+        if scene.surface.is_none() && !scene.lights.is_empty() {
+            let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
+            return Err(Error::usage(
+                "light",
+                "shines on samples, of whose colours no exact integral is known",
+                remedy,
+            ));
+        }
         let checked = (host.open)()?;
         let provenance = Provenance::now(FORMAT);
         (host.say)("exact integral");
@@ -73,7 +81,11 @@ impl AccuracyJob {
         let opaque = f64::from(truth.pixels.iter().map(|p| p[3]).fold(0.0, f32::max)) > settings.sampling.termination;
         let own = Way::of(settings);
         let asked = Asked { checked: &checked, scene: &scene, own, truth: &truth, opaque };
-        let mut ways = if self.full { Way::all(own) } else { Way::some(own) };
+        let mut ways = match scene.surface {
+            Some(_) => Way::of_surfaces(own),
+            None if self.full => Way::all(own),
+            None => Way::some(own),
+        };
         // Some scenes cannot be classified by a table; one that asks for it is refused. Values have no opacity.
         let values = projection::of(settings).shows_values();
         ways.retain(|way| {

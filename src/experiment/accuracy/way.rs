@@ -1,7 +1,7 @@
 //! Ways of sampling a scene.
 
 use crate::scene::Settings;
-use crate::scene::settings::{Accumulate, Alpha, Classification, Filter, Last, Offset, VolumeTexture};
+use crate::scene::settings::{Accumulate, Alpha, Classification, Filter, Last, Offset, Refine, VolumeTexture};
 
 /// How samples are taken and kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Way {
     pub accumulate: Accumulate,
     pub texture: VolumeTexture,
     pub filter: Filter,
+    /// How the places of iso-surfaces are found.
+    pub refine: Refine,
 }
 
 impl Way {
@@ -26,6 +28,7 @@ impl Way {
             accumulate: settings.image.accumulate,
             texture: settings.volume.texture,
             filter: sampling.filter,
+            refine: settings.surface.refine,
         }
     }
 
@@ -34,6 +37,7 @@ impl Way {
         (sampling.offset, sampling.last, sampling.alpha) = (self.offset, self.last, self.alpha);
         (settings.image.accumulate, settings.volume.texture) = (self.accumulate, self.texture);
         (settings.sampling.filter, settings.sampling.classification) = (self.filter, self.classification);
+        settings.surface.refine = self.refine;
     }
 
     /// What differs from the scene's own, in words.
@@ -48,6 +52,10 @@ impl Way {
         say(self.offset != own.offset, format!("{:?}", self.offset).to_lowercase());
         say(self.last != own.last, format!("{:?}", self.last).to_lowercase());
         say(self.filter != own.filter, format!("{:?} filter", self.filter).to_lowercase());
+        say(
+            self.refine != own.refine,
+            format!("refined {:?}", self.refine).to_lowercase().replace("refined none", "not refined"),
+        );
         say(self.alpha != own.alpha, format!("{:?} alpha", self.alpha).to_lowercase());
         say(self.accumulate != own.accumulate, format!("{:?}", self.accumulate).to_lowercase());
         say(self.texture != own.texture, format!("{:?} texture", self.texture).to_lowercase());
@@ -84,6 +92,20 @@ impl Way {
         ways
     }
 
+    /// The ways to find the places of iso-surfaces, the scene's own first, and each interpolated in the shader.
+    pub fn of_surfaces(own: Self) -> Vec<Self> {
+        let refined =
+            |filter: Filter| [Refine::None, Refine::Linear, Refine::Exact].map(|refine| Self { refine, filter, ..own });
+        let others = refined(own.filter).into_iter().chain(refined(Filter::Exact));
+        let mut ways = vec![own];
+        for way in others {
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+        ways
+    }
+
     /// Every way, the scene's own first.
     pub fn all(own: Self) -> Vec<Self> {
         let (post, between) = (Classification::Post, Classification::PreIntegrated);
@@ -94,7 +116,8 @@ impl Way {
                     for accumulate in [Accumulate::Rgba32f, Accumulate::Rgba16f, Accumulate::Rgba8] {
                         for texture in [VolumeTexture::Native, VolumeTexture::R16, VolumeTexture::R32f] {
                             for filter in [Filter::Hardware, Filter::Exact] {
-                                let way = Self { classification, offset, last, alpha, accumulate, texture, filter };
+                                let way =
+                                    Self { classification, offset, last, alpha, accumulate, texture, filter, ..own };
                                 ways.extend((way != own).then_some(way));
                             }
                         }

@@ -5,6 +5,7 @@ mod kit;
 mod opacity;
 mod polygon;
 mod ray;
+mod root;
 mod samples;
 mod section;
 mod volume;
@@ -25,6 +26,7 @@ pub fn tests() -> Vec<Test> {
         samples::all(),
         volume::all(),
         polygon::all(),
+        root::all(),
     ];
     tests.into_iter().flatten().map(|test| test.within("formulas")).collect()
 }

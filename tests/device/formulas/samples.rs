@@ -116,6 +116,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         fused: false,
         levels: Levels::default(),
         surface_values: &[],
+        lights: &[],
     }
 }
 

@@ -1,0 +1,73 @@
+//! Twin of `glsl/shared/phong.glsl`, whose formula is [`crate::scene::light::lit`]: with the gradient that the shader takes, and how far
+//! f32 may be off.
+
+use glam::DVec3;
+
+use super::{Pixel, Twin};
+use crate::scene::light::{Light, LightPlace, LitPoint, lit};
+
+/// What f32 takes from a colour by a few products, and devices from an exponential: relative.
+const COLOR_ROUNDING: f64 = 1e-5;
+
+/// What f32 takes from a cosine of two vectors that are made of length 1.
+const COSINE_ROUNDING: f64 = 3e-7;
+
+/// What devices take from a power near 1 by their exponential.
+const POWER_ROUNDING: f64 = 4e-6;
+
+/// A lit colour, and how far f32 may be off at the very place unless it turns.
+pub(super) struct Shaded {
+    pub color: [f64; 3],
+    pub rounding: f64,
+    /// Along the gradient, volume space.
+    pub normal: DVec3,
+    /// Whether f32 may turn the normal the other way, or away from a light, so that the colour is another one.
+    pub turns: bool,
+}
+
+impl Twin<'_> {
+    /// The colour of a surface, or of a sample, `steps` from the entry point, of that colour in no light.
+    pub(super) fn shaded(&self, pixel: &Pixel, steps: f64, color: [f64; 3], lights: &[Light]) -> Shaded {
+        let (field, position) = (&self.scene.field, self.position_at(pixel, steps));
+        let voxel = self.voxel(position);
+        let (normal, off) = self.gradient_at(voxel);
+        let point = LitPoint { place: (position - 0.5) * field.extent(), normal, view: -pixel.direction };
+        let shaded = lit(color, lights, &point);
+        // How far the normal may be off, as an angle; one of no length at all has none.
+        let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
+        let mut turns = normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(voxel);
+        let mut rounding = 0.0f64;
+        for light in lights {
+            let largest = |part: [f64; 3]| part.into_iter().fold(0.0, f64::max);
+            let shown = largest(std::array::from_fn(|c| color[c] * light.diffuse[c]));
+            // The steepest slope of cos(x)^n is below the root of n.
+            let steepest = light.shininess.sqrt().max(1.0);
+            let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
+            rounding += angle.min(2.0) * shown + largest(light.specular) * specular.min(1.0);
+            turns |= angle > 0.0 && self.turns(light, &point, angle);
+        }
+        let brightest = shaded.into_iter().fold(0.0, f64::max);
+        Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, turns }
+    }
+
+    /// Whether a normal that is off by that angle may be turned the other way, or away from the light.
+    fn turns(&self, light: &Light, point: &LitPoint, angle: f64) -> bool {
+        let normal = point.normal.normalize_or_zero();
+        let reach = 2.0 * angle + COLOR_ROUNDING;
+        let sides = [Some(point.view), light.from(point.place)];
+        let beside = sides.into_iter().flatten().any(|way| normal.dot(way).abs() < reach);
+        // A light in the point itself may be on any side of it.
+        let near = matches!(light.place, LightPlace::Position(at) if at.distance(point.place) < COLOR_ROUNDING);
+        beside || near
+    }
+
+    /// Whether the field does not change about a place, so that differences are 0 in f32 too.
+    fn is_flat(&self, voxel: DVec3) -> bool {
+        let field = &self.scene.field;
+        let near = |by: f64| field.cell_at(voxel + by);
+        let cells = [near(-1.0), near(0.0), near(1.0)];
+        let mut values = cells.into_iter().flat_map(|cell| field.corners(cell)).map(|corner| field.values[corner]);
+        let first = values.next();
+        values.all(|value| Some(value) == first)
+    }
+}
