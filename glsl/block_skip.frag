@@ -16,11 +16,11 @@
 #include "shared/samples.glsl"
 #include "shared/block.glsl"
 #include "shared/opacity.glsl"
+#ifndef ENDLESS
+#define READS_GATHERED
+#endif
 #include "shared/projection.glsl"
 
-#ifndef ENDLESS
-#include "shared/gathered.glsl"
-#endif
 layout(set = 0, binding = 8, std430) readonly buffer CellRange {
     vec2 ranges[];
 } cell_range;

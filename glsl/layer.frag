@@ -8,7 +8,7 @@ layout(set = 0, binding = 15) uniform sampler2D layer;
 layout(set = 0, binding = 16) uniform sampler2D layer_color;
 
 #ifdef SURFACE
-#include "shared/gathered.glsl"
+layout(set = 0, binding = 7) uniform sampler2D surface_hit;
 #endif
 
 layout(location = 0) out vec4 accumulated;
@@ -19,7 +19,7 @@ void main() {
         discard;
     }
 #ifdef SURFACE
-    if (texelFetch(GATHERED, pixel, 0).a > 0.0) {
+    if (texelFetch(surface_hit, pixel, 0).a > 0.0) {
         discard;
     }
 #endif

@@ -21,11 +21,10 @@
 #include "shared/section.glsl"
 #include "shared/near_neighbor.glsl"
 #include "shared/opacity.glsl"
-#include "shared/projection.glsl"
-
 #ifndef ENDLESS
-#include "shared/gathered.glsl"
+#define READS_GATHERED
 #endif
+#include "shared/projection.glsl"
 
 #ifdef PARTIAL_APART
 // A segment that ends at a surface is left for its own pass as soon as it comes next, not only on arrival: main passes that mark

@@ -13,11 +13,10 @@
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/opacity.glsl"
-#include "shared/projection.glsl"
-
 #ifndef ENDLESS
-#include "shared/gathered.glsl"
+#define READS_GATHERED
 #endif
+#include "shared/projection.glsl"
 
 void main() {
     Ray ray = load_ray();

@@ -69,3 +69,15 @@ vec4 value_sample(float value, float steps, float all) {
         return vec4(0.0);
     }
 }
+
+#ifdef READS_GATHERED
+// What a ray has gathered, which tells whether it has ended: its colour, or with SURFACE where it has met a surface, with opacity 1.
+// Twin: `gathered` in src/twin/surface.rs.
+#ifdef SURFACE
+layout(set = 0, binding = 7) uniform sampler2D surface_hit;
+#define GATHERED surface_hit
+#else
+layout(set = 0, binding = 7) uniform sampler2D accumulated;
+#define GATHERED accumulated
+#endif
+#endif

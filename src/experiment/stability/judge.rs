@@ -63,6 +63,8 @@ pub struct Outcome {
 struct ExpectedPicture {
     pixels: Vec<[f64; 4]>,
     undecided: Vec<bool>,
+    /// How far f32 may be from each pixel besides.
+    rounding: Vec<f64>,
 }
 
 /// Every one of `methods` on one case. Rays that end early give one picture, bit for bit, whatever is skipped.
@@ -148,7 +150,7 @@ fn compared(case: &StabilityCase, rendered: &Rendered, rule: &ExpectedPicture, b
         }
         for c in 0..4 {
             let difference = (found[c] - expected[c]).abs();
-            let allowed = case.tolerance.absolute + case.tolerance.relative * expected[c].abs();
+            let allowed = case.tolerance.absolute + case.tolerance.relative * expected[c].abs() + rule.rounding[i];
             if difference / allowed > share {
                 (share, worst) = (difference / allowed, i);
             }
@@ -197,7 +199,7 @@ fn rule(
             self::twin(&other, method, sub_pixel_bits)?.pixels
         }
     };
-    Ok(ExpectedPicture { pixels, undecided: twin.undecided })
+    Ok(ExpectedPicture { pixels, undecided: twin.undecided, rounding: twin.rounding })
 }
 
 /// The same samples in f64.

@@ -5,6 +5,7 @@ mod optical;
 mod planes;
 mod projection;
 mod sampling;
+mod surfaces;
 mod transfer;
 mod traps;
 mod values;
@@ -20,6 +21,7 @@ pub fn battery() -> Vec<StabilityCase> {
         values::cases(),
         views::cases(),
         planes::cases(),
+        surfaces::cases(),
         sampling::cases(),
         depth::cases(),
         projection::cases(),
