@@ -22,7 +22,7 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
     warnings.extend(layers_left(scene, plan));
     warnings.extend(uncovered(scene, plan));
     warnings.extend(background_left(scene, plan));
-    warnings.extend(clipped(picture));
+    warnings.extend(clipped(scene, picture));
     warnings
 }
 
@@ -63,7 +63,8 @@ fn uncovered(scene: &Scene, plan: &Plan) -> Option<String> {
 fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
     let settings = &scene.settings;
     let termination = settings.sampling.termination;
-    let by_opacity = projection::of(settings).ends == Ends::Opaque;
+    // Surfaces are opaque to the bit.
+    let by_opacity = projection::of(settings).ends == Ends::Opaque && scene.surface.is_none();
     let ends = by_opacity
         && plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED));
     let seen = settings.image.background.iter().any(|channel| *channel != 0.0);
@@ -80,13 +81,13 @@ fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
 const UNSEEN: f32 = 0.5 / 255.0;
 
 /// That a PNG does not show all of the picture.
-fn clipped(picture: &Picture) -> Option<String> {
+fn clipped(scene: &Scene, picture: &Picture) -> Option<String> {
     let colors = || picture.pixels.iter().flat_map(|pixel| &pixel[..3]).copied();
     let [least, greatest] = [colors().fold(0.0, f32::min), colors().fold(1.0, f32::max)];
     (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
+        let advice = if scene.shining().is_empty() { "another --range" } else { "weaker lights" };
         format!(
-            "the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY, or give another \
-             --range"
+            "the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY, or give {advice}"
         )
     })
 }

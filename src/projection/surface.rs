@@ -9,12 +9,14 @@ use crate::scene::texture::TextureMap;
 /// value is on the surface.
 pub fn surface_values(scene: &Scene, map: TextureMap) -> Vec<[f64; 2]> {
     let span = ValueSpan::of(&scene.field, map);
+    // Beyond all numbers nothing is rounded.
+    let slack = |value: f64| if value.is_finite() { span.slack(value) } else { 0.0 };
     let representable = |value: f64| f64::from(value.clamp(f32::MIN.into(), f32::MAX.into()) as f32);
     let levels = scene.surface.iter().flat_map(|surface| &surface.levels);
     levels
         .map(|level| {
             let [from, to] = level.values.map(|x| map.value(x));
-            [representable(from - span.slack(from)), representable(to + span.slack(to))]
+            [representable(from - slack(from)), representable(to + slack(to))]
         })
         .collect()
 }

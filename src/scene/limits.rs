@@ -34,6 +34,9 @@ pub struct WrongValue {
 /// Numbers below this are told as `1e-9`.
 const SMALL: f64 = 1e-6;
 
+/// Numbers from this on are told as `1e30`.
+const LARGE: f64 = 1e15;
+
 impl Limits {
     pub const fn new(allowed: Allowed, what: &'static str) -> Self {
         Self { allowed, what }
@@ -71,7 +74,7 @@ impl fmt::Display for Allowed {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let told = |number: f64| {
             let small = number != 0.0 && number.abs() < SMALL;
-            if small { format!("{number:e}") } else { number.to_string() }
+            if small || number.abs() >= LARGE { format!("{number:e}") } else { number.to_string() }
         };
         match *self {
             Self::FromTo(low, high) => write!(f, "from {} to {}", told(low), told(high)),

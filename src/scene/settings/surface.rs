@@ -10,7 +10,7 @@ use crate::scene::limits::{Allowed, Limits, WrongValue};
 const VALUES: Limits = Limits::new(Allowed::Finite, "a finite number");
 
 /// Widths of a range of values.
-const WIDTHS: Limits = Limits::from_to(0.0, f64::MAX, "a width {}");
+const WIDTHS: Limits = Limits::from_to(0.0, 1e30, "a width {}");
 
 /// The most surfaces of a scene: a ray's value is held against each of them.
 pub const MOST_SURFACES: usize = 64;
@@ -26,7 +26,7 @@ section! {
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     iso?: f64, within VALUES;
 
-    /// Iso-surfaces with colours of their own, in place of `iso`
+    /// Iso-surfaces with colours of their own, besides `iso`
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[arg(skip)]
     levels: Vec<SurfaceLevel> = Vec::new(), by sound;
