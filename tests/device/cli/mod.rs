@@ -24,24 +24,24 @@ pub fn tests() -> Vec<Test> {
         test("unknown device is refused with those there are", unknown_device),
         test("cull bounds is refused without depth bounds", bounds_without_the_feature).needs(Need::NoDepthBounds),
         test("a form the method has not is refused", unknown_form),
-        test("an output is kept when a run fails", failing_runs_change_nothing),
+        test("an output is kept when a run fails", failing_runs_change_nothing).needs(Need::AnyDriver),
         test("info writes JSON", info_writes_json),
         test("render writes every key of a run", render_writes_every_key),
         test("the same settings give the same bits", same_settings_same_bits),
-        test("all three picture formats hold the same floats", formats_agree),
-        test("a run of a bench is repeated bit for bit", bench_runs_repeat),
-        test("bench writes one row a run and the keys of render", bench_writes_rows),
+        test("all three picture formats hold the same floats", formats_agree).needs(Need::AnyDriver),
+        test("a run of a bench is repeated bit for bit", bench_runs_repeat).needs(Need::AnyDriver),
+        test("bench writes one row a run and the keys of render", bench_writes_rows).needs(Need::AnyDriver),
         test("validation finds nothing", validation_finds_nothing),
-        test("voxels that are no numbers give finite pictures", policies_agree),
+        test("voxels that are no numbers give finite pictures", policies_agree).needs(Need::AnyDriver),
         test("all methods write the same picture", methods_agree_as_files),
         test("cull bounds gives the picture of ztest", bounds_and_ztest_agree).needs(Need::DepthBounds),
         test("both early ends give one picture", early_ends_agree).needs(Need::Conditional),
-        test("extra fetches change no picture and are swept", extra_fetches),
-        test("report makes all pages again", pages_come_again),
+        test("extra fetches change no picture and are swept", extra_fetches).needs(Need::AnyDriver),
+        test("report makes all pages again", pages_come_again).needs(Need::AnyDriver),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
-    tests.extend(accuracy::tests());
-    tests.extend(shaders::tests());
+    let any_driver = accuracy::tests().into_iter().chain(shaders::tests());
+    tests.extend(any_driver.map(|test| test.needs(Need::AnyDriver)));
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
 }
