@@ -3,11 +3,14 @@
 use std::sync::Arc;
 
 use depthleap::experiment::stability::{Stability, StabilityVerdict, battery};
-use depthleap::method;
+use depthleap::method::{CPU, METHODS};
+use depthleap::part::rows::Method;
+use depthleap::scene::settings::MethodName;
 use depthleap::vulkan::Device;
 
 use super::program::Place;
-use crate::harness::{Test, test};
+use crate::frame::scenes::shapes;
+use crate::harness::{Test, some_forms, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
@@ -21,20 +24,26 @@ fn read(place: &Place) -> Stability {
     serde_json::from_slice(&place.read("out/stability.json")).unwrap()
 }
 
+/// All methods; where another driver draws by all of them, the first of those that differ in no more than their distances.
+fn methods() -> Vec<MethodName> {
+    match some_forms() {
+        true => shapes().into_iter().map(Method::name).chain([CPU.name()]).collect(),
+        false => METHODS.map(Method::name).to_vec(),
+    }
+}
+
 fn every_case(device: &Arc<Device>) {
     let place = Place::new();
-    let said = place.done("stability -o out").text();
+    let methods = methods();
+    let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+    let said = place.done(&format!("stability --method {} -o out", names.join(","))).text();
     let found = read(&place);
     assert_eq!(found.device, device.info.name);
     let names: Vec<(String, String)> = battery().iter().map(|c| (c.group.to_owned(), c.name.clone())).collect();
     assert_eq!(found.cases.iter().map(|c| (c.group.clone(), c.name.clone())).collect::<Vec<_>>(), names);
     for (case, asked) in found.cases.iter().zip(battery()) {
-        let methods = if asked.methods.is_empty() {
-            method::METHODS.map(|method| method.name()).len()
-        } else {
-            asked.methods.len()
-        };
-        assert_eq!(case.outcomes.len(), methods, "{}", case.name);
+        let of_case = |method: &&MethodName| asked.methods.is_empty() || asked.methods.contains(method);
+        assert_eq!(case.outcomes.len(), methods.iter().filter(of_case).count(), "{}", case.name);
         assert!(
             case.outcomes.iter().all(|o| o.verdict != StabilityVerdict::Wrong),
             "{}: {:?}",
