@@ -283,6 +283,12 @@ fn voxels_of_the_very_value_are_on_the_surface() {
     let (_, frame) = drawn(&scene);
     let there = frame.counts.light;
     assert!(there > 300 && frame.undecided.iter().filter(|open| **open).count() as u64 <= frame.outline);
+    // A range beside the value has nothing of it, though the scalar range is that one value.
+    for iso in [0.3, 0.7] {
+        let beside =
+            self::scene("constant:8", iso, |s| (s.surface.find, s.surface.iso_width) = (Find::Range, Some(0.1)));
+        assert_eq!(drawn(&beside).1.counts.light, 0, "{iso}");
+    }
     // As soon as the value is above, nothing is.
     let above = self::scene("constant:8", 0.5001, |_| {});
     assert_eq!(drawn(&above).1.counts.light, 0);

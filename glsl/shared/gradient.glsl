@@ -29,7 +29,7 @@ vec3 gradient_at(Place place) {
         Place down = beside(place, axis, -1.0);
         float way = (up.below[axis] - down.below[axis]) + (up.weight[axis] - down.weight[axis]);
         if (way > 0.0) {
-            // Voxels of the finest spacing in one along this axis.
+            // Voxels along this axis in one of the finest spacing.
             float finest = frame.voxel_step[0][axis] / frame.step_voxels;
             gradient[axis] = (value_at(up) - value_at(down)) / way * finest;
         }

@@ -85,7 +85,11 @@ fn clipped(scene: &Scene, picture: &Picture) -> Option<String> {
     let colors = || picture.pixels.iter().flat_map(|pixel| &pixel[..3]).copied();
     let [least, greatest] = [colors().fold(0.0, f32::min), colors().fold(1.0, f32::max)];
     (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
-        let advice = if scene.shining().is_empty() { "another --range" } else { "weaker lights" };
+        let advice = match (scene.lights.is_empty(), &scene.surface) {
+            (false, _) => "weaker lights",
+            (true, Some(_)) => "darker colours of the surface",
+            (true, None) => "another --range",
+        };
         format!(
             "the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY, or give {advice}"
         )

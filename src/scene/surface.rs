@@ -27,16 +27,19 @@ impl Surface {
     pub fn of(settings: &Settings, field: &Field, transfer: &TransferFunction) -> Option<Self> {
         let surface = &settings.surface;
         let [low, high] = field.range;
+        // Halved first, as those of voxels: the difference of two finite numbers may overflow, that of their halves cannot.
+        let half = if high - low > 1.0 { 0.5 } else { 1.0 };
         let x = |value: f64| match high > low {
-            true => (value - low) / (high - low),
-            // x is 0 everywhere: a value that the field has is 0, one above is beyond all of it.
-            false => f64::from(u8::from(value > low)),
+            true => (half * value - half * low) / (half * high - half * low),
+            // x is 0 everywhere: a value that the field has is 0, others are beyond all of it.
+            false if value == low => 0.0,
+            false => (value - low).signum(),
         };
         let level = |asked: &SurfaceLevel| {
-            let half = 0.5 * surface.iso_width.unwrap_or(WIDTH * (high - low));
+            let reach = 0.5 * surface.iso_width.unwrap_or(WIDTH * high - WIDTH * low);
             let values = match surface.find {
                 Find::Crossing => [x(asked.iso), f64::INFINITY],
-                Find::Range => [x(asked.iso - half), x(asked.iso + half)],
+                Find::Range => [x(asked.iso - reach), x(asked.iso + reach)],
             };
             let [r, g, b, _] = transfer.evaluate(x(asked.iso));
             Level { values, color: asked.color.unwrap_or([r, g, b]) }

@@ -1,4 +1,4 @@
-//! `[[light]]`: lights that shine on iso-surfaces [Thesis §4.2.1].
+//! `[[light]]`: lights that shine on iso-surfaces or on samples [Thesis §4.2.1].
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

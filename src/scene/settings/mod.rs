@@ -65,7 +65,7 @@ macro_rules! sections {
             /// Geometry that the volume is cut at, as an array of tables `[[clip]]`.
             #[serde(rename = "clip", skip_serializing_if = "Vec::is_empty")]
             pub clips: Vec<ClipSettings>,
-            /// Lights on surfaces, as an array of tables `[[light]]`.
+            /// Lights on surfaces or on samples, as an array of tables `[[light]]`.
             #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
             pub lights: Vec<LightSettings>,
         }

@@ -6,13 +6,13 @@ use super::section::section;
 use crate::scene::fixed;
 use crate::scene::limits::{Allowed, Limits, WrongValue};
 
-/// Iso values, of which single precision has numbers.
+/// Iso values.
 const VALUES: Limits = Limits::new(Allowed::Finite, "a finite number");
 
 /// Widths of a range of values.
 const WIDTHS: Limits = Limits::from_to(0.0, 1e30, "a width {}");
 
-/// The most surfaces of a scene: a ray's value is held against each of them.
+/// The most surfaces of `levels`: a ray's value is held against each of them.
 pub const MOST_SURFACES: usize = 64;
 
 section! {
