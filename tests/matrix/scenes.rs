@@ -106,15 +106,7 @@ const KINDS: [(&str, Change); 44] = [
     ("iso-surfaces in colours and coloured light, to the root", |s| {
         s.surface.levels = vec![level(150.0, [0.9, 0.2, 0.1]), level(60.0, [0.2, 0.8, 0.3])];
         s.surface.refine = Refine::Exact;
-        s.lights = vec![
-            LightSettings {
-                direction: Some([-3.0, 2.0, 1.0]),
-                color: [1.0, 0.3, 0.2],
-                specular: 0.8,
-                ..Default::default()
-            },
-            LightSettings { position: Some([0.7, -0.9, 0.8]), color: [0.2, 0.3, 1.0], ..Default::default() },
-        ];
+        s.lights = two_lights();
     }),
     ("a range of values, where samples are", |s| {
         (s.surface.iso, s.surface.find, s.surface.iso_width) = (Some(120.0), Find::Range, Some(70.0));
@@ -137,15 +129,7 @@ const KINDS: [(&str, Change); 44] = [
         s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
     }),
     ("samples in coloured lights, with a mesh", |s| {
-        s.lights = vec![
-            LightSettings {
-                direction: Some([-3.0, 2.0, 1.0]),
-                color: [1.0, 0.3, 0.2],
-                specular: 0.8,
-                ..Default::default()
-            },
-            LightSettings { position: Some([0.7, -0.9, 0.8]), color: [0.2, 0.3, 1.0], ..Default::default() },
-        ];
+        s.lights = two_lights();
         (s.sampling.last, s.meshes) = (Last::Partial, vec![cuboid(0.5, 0.4)]);
     }),
     ("layers of steps classified as a whole", |s| {
@@ -153,6 +137,19 @@ const KINDS: [(&str, Change); 44] = [
         s.sampling.last = Last::Partial;
     }),
 ];
+
+/// A red light from afar with a highlight, and a blue one near the volume.
+fn two_lights() -> Vec<LightSettings> {
+    vec![
+        LightSettings {
+            direction: Some([-3.0, 2.0, 1.0]),
+            color: [1.0, 0.3, 0.2],
+            specular: 0.8,
+            ..Default::default()
+        },
+        LightSettings { position: Some([0.7, -0.9, 0.8]), color: [0.2, 0.3, 1.0], ..Default::default() },
+    ]
+}
 
 /// An iso-surface with a colour of its own.
 fn level(iso: f64, color: [f64; 3]) -> SurfaceLevel {
