@@ -15,7 +15,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [DENSE], [ENDLESS], [VALUES], [SURFACE], [LIT]
+//@takes [DENSE], [ENDLESS], [VALUES], [SURFACE], [LIT], [GRADIENTS]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 
 // RES comes first.

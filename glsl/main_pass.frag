@@ -11,7 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
-//@takes [VALUES], [SURFACE], [LIT]
+//@takes [VALUES], [SURFACE], [LIT], [GRADIENTS]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL]
 
 #include "shared/frame.glsl"

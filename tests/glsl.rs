@@ -62,9 +62,9 @@ fn unknown_file_names_the_nearest() {
 fn defines_that_a_shader_does_not_take_are_refused() {
     for (file, defines, says) in [
         (
-            "lighting.frag",
+            "clip_begin.frag",
             &["HOLES"][..],
-            "glsl/lighting.frag:1:1: the define `HOLES` is asked for, and this shader takes no define",
+            "glsl/clip_begin.frag:1:1: the define `HOLES` is asked for, and this shader takes no define",
         ),
         (
             "main_pass.frag",

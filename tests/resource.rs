@@ -44,7 +44,9 @@ fn scenes() -> Vec<Scene> {
         (s.surface.iso, s.lights) =
             (Some(90.0), vec![LightSettings { direction, color: [1.0, 0.5, 0.2], ..Default::default() }]);
     });
-    vec![surface, coloured_light, scene(|_| {}), scene(|s| s.method.cell = 4), coloured, holes, table, polygons, cut]
+    let reflecting = scene(|s| (s.surface.iso, s.environment.builtin) = (Some(90.0), Some("sky".to_owned())));
+    let cells = scene(|s| s.method.cell = 4);
+    vec![reflecting, surface, coloured_light, scene(|_| {}), cells, coloured, holes, table, polygons, cut]
 }
 
 fn hole_at_7(i: usize) -> f32 {

@@ -7,22 +7,29 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 7] = [
+const WITHOUT_OPTION: [(&str, &str); 9] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("transfer.preset", "--tf names it"),
     ("transfer.file", "--tf names it"),
     ("transfer.points", "they are too many for a command line"),
     ("surface.levels", "they are too many for a command line"),
+    ("environment.image", "--environment names it"),
+    ("environment.builtin", "--environment names it"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
 ];
 
 /// Options that are no keys, and the key that each of them changes.
-const WITHOUT_KEY: [(&str, &str); 4] =
-    [("tf", "transfer.preset"), ("azimuth", "camera.eye"), ("elevation", "camera.eye"), ("distance", "camera.eye")];
+const WITHOUT_KEY: [(&str, &str); 5] = [
+    ("tf", "transfer.preset"),
+    ("azimuth", "camera.eye"),
+    ("elevation", "camera.eye"),
+    ("distance", "camera.eye"),
+    ("environment", "environment.builtin"),
+];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 10] = [
+const WITHOUT_RANGE: [(&str, &str); 12] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.range", "its two ends are held against one another"),
@@ -33,13 +40,15 @@ const WITHOUT_RANGE: [(&str, &str); 10] = [
     ("volume.component", "held against the file"),
     ("volume.frame", "held against the file"),
     ("surface.levels", "tables, each with its checks"),
+    ("environment.image", "a name"),
+    ("environment.builtin", "a name"),
 ];
 
 /// What else may be absent: sources of a transfer function, which has checks of its own.
 const TRANSFER: [&str; 3] = ["transfer.preset", "transfer.file", "transfer.points"];
 
 /// Values of options that neither their words nor their limits tell.
-const VALUES: [(&str, &str); 8] = [
+const VALUES: [(&str, &str); 9] = [
     ("range", "1%,99%"),
     ("no-data", "-9999,-1"),
     ("dims", "3,2,1"),
@@ -48,6 +57,7 @@ const VALUES: [(&str, &str); 8] = [
     ("frame", "2"),
     ("iso", "120.5"),
     ("iso-width", "8"),
+    ("environment", "sky"),
 ];
 
 fn path(key: &Key) -> String {

@@ -1,13 +1,17 @@
 //! Iso-surfaces: where rays meet them and which normals they have, held against closed forms and against roots of the interpolant;
 //! lights; what is refused. Needs no device.
 
+#[path = "surfaces/numbers.rs"]
+mod numbers;
+
 use depthleap::frame::{CpuFrame, Structures, cpu};
 use depthleap::method::{METHODS, RC_ERT};
 use depthleap::plan::{Plan, plan, warnings};
 use depthleap::read;
 use depthleap::scene::light::{Light, LightPlace, LitPoint, lit};
 use depthleap::scene::settings::{
-    Classification, ClipSettings, Filter, Find, LightSettings, Offset, Refine, Settings, SurfaceLevel,
+    Accumulate, Classification, ClipSettings, Filter, Find, LightSettings, MeshSettings, Offset, Refine, Settings,
+    Shows, SurfaceLevel,
 };
 use depthleap::scene::{Scene, builtin};
 use depthleap::truth::exact::ExactIntegrator;
@@ -235,7 +239,7 @@ fn what_has_no_meaning_with_surfaces_or_lights_is_refused() {
     };
     assert_eq!(planned(|_| {}), Ok(()));
     type Change = fn(&mut Settings);
-    let cases: [(Change, &str); 12] = [
+    let cases: [(Change, &str); 15] = [
         (|s| s.projection.kind = depthleap::projection::MIP.name(), "--projection mip"),
         (|s| s.sampling.classification = Classification::PreIntegrated, "pre-integrated"),
         (|s| s.sampling.offset = Offset::Midpoint, "midpoint"),
@@ -244,6 +248,15 @@ fn what_has_no_meaning_with_surfaces_or_lights_is_refused() {
         (|s| s.surface.levels = vec![SurfaceLevel { iso: f64::NAN, color: None, opacity: 1.0 }], "the iso value NaN"),
         (|s| s.surface.iso = Some(f64::INFINITY), "surface.iso (--iso)"),
         (|s| s.surface.iso_width = Some(-1.0), "--iso-width"),
+        (|s| (s.surface.shows, s.image.accumulate) = (Shows::Position, Accumulate::Rgba16f), "--accumulate rgba16f"),
+        (|s| (s.surface.shows, s.image.accumulate) = (Shows::Normal, Accumulate::Rgba8), "use rgba32f"),
+        (
+            |s| {
+                s.surface.shows = Shows::Normal;
+                s.meshes = vec![MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() }];
+            },
+            "would be blended with the places or normals",
+        ),
         (|s| s.lights = vec![LightSettings::default()], "light.direction: is missing"),
         (|s| s.lights = vec![LightSettings { direction: Some([0.0; 3]), ..Default::default() }], "has the length 0"),
         (

@@ -1,4 +1,5 @@
-// Lights on a surface: the illumination model of Phong [Thesis §4.2.1]. Twin: src/scene/light.rs.
+// Lights on a surface: the illumination model of Phong [Thesis §4.2.1]. Twins: src/scene/light.rs, the formula, and
+// src/twin/phong.rs, how far f32 may be off.
 
 // Colours of lights are alike in red, green and blue.
 layout(constant_id = 21) const bool WHITE_LIGHTS = false;

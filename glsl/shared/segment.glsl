@@ -1,7 +1,7 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
 // opacity.glsl and projection.glsl. SURFACE (with VALUES): surface.glsl. LIT: each sample is lit by its
-// gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl.
+// gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl. GRADIENTS: that and its value are in one texture.
 
 #if !defined(PREINTEGRATED) && !defined(VALUES)
 // Bring opacities from the reference length to the step.
@@ -89,13 +89,24 @@ vec4 shade_sample(Ray ray, uint i) {
         return no_sample();
     }
     float clear;
+#ifdef GRADIENTS
+    // Value and gradient in one fetch [Stegmaier05 §4].
+    vec4 texel = gradient_texel(place_at(ray, steps_to(i)));
+    vec4 color = classify(burdened(value_of(texel)), clear);
+#else
     vec4 color = classify(sample_volume(ray, steps_to(i)), clear);
+#endif
 #ifdef LIT
     // What does not show needs no light.
     if (color.a > 0.0) {
         vec3 point = (position_at(ray, steps_to(i)) - 0.5) * frame.extent[0].xyz;
         vec3 view = -texelFetch(direction, ivec2(gl_FragCoord.xy), 0).xyz;
-        color.rgb = lit(color.rgb, gradient_at(place_at(ray, steps_to(i))), point, view);
+#ifdef GRADIENTS
+        vec3 gradient = gradient_of(texel);
+#else
+        vec3 gradient = gradient_at(place_at(ray, steps_to(i)));
+#endif
+        color.rgb = lit(color.rgb, gradient, point, view);
     }
 #endif
     float steps = extent_of_sample(ray, i);

@@ -21,12 +21,15 @@ use crate::scene::settings::MethodName;
 /// Renders a scene by each method with ever shorter steps, and holds each picture against the exact emission-absorption
 /// integral in f64: largest error, root mean square, PSNR, SSIM, beside the time of a frame. Fits the order in the step, says
 /// why it may differ from theory's, and which method at which step is the fastest within an error of 1/255 and 1/1000.
+/// Of an iso-surface (--iso) it measures where rays meet it, its normals and its colours, each by itself, by every way to find
+/// places and to take gradients, against the root of the interpolant and its gradient there.
 /// Writes accuracy.json, .csv, .html and two plots as SVG. Unless a scene file or an option says otherwise, pictures have
 /// 160x160 pixels and rays end at an opacity of 0.999.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap accuracy builtin:gaussian:64 --tf linear -o out
   depthleap accuracy fuel.nrrd --method rc,nn-omni --steps 2,1,0.5,0.25 -o out
+  depthleap accuracy builtin:gaussian:64 --iso 0.4 -o out
   depthleap accuracy builtin:marschner-lobb:41 --full --viewport 100x100 -o out")]
 pub struct AccuracyCommand {
     /// Scene file (.toml), volume file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]

@@ -12,7 +12,7 @@ use crate::method;
 use crate::part::rows::Method;
 use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
-use crate::scene::settings::{MethodName, ProjectionName, Settings, SettingsOptions};
+use crate::scene::settings::{Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions};
 use crate::scene::transfer::DEFAULT_PRESET;
 use crate::scene::{builtin, scenes};
 
@@ -84,7 +84,7 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
 }
 
 /// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes, of its
-/// clip meshes and of its clip planes.
+/// clip meshes, of its clip planes and of its lights.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
     let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
@@ -92,8 +92,7 @@ pub fn scene_name(settings: &Settings) -> String {
     let transfer = &settings.transfer;
     let surfaces = settings.surface.asked();
     let tf = match (&transfer.preset, &transfer.file) {
-        _ if surfaces.len() == 1 => format!("iso {}", surfaces[0].iso),
-        _ if !surfaces.is_empty() => format!("{} iso-surfaces", surfaces.len()),
+        _ if !surfaces.is_empty() => surface_name(settings),
         (Some(name), _) => name.clone(),
         (None, Some(file)) => file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default(),
         (None, None) if transfer.points.is_some() => "points".to_owned(),
@@ -108,11 +107,30 @@ pub fn scene_name(settings: &Settings) -> String {
     let planes = settings.clips.iter().filter(|clip| clip.plane.is_some()).count();
     let clips = number(settings.clips.len() - planes, "a clip mesh", "clip meshes");
     let planes = number(planes, "a clip plane", "clip planes");
-    let geometry: Vec<String> = [meshes, clips, planes].into_iter().flatten().collect();
+    let lights = number(settings.lights.len(), "a light", "lights");
+    let geometry: Vec<String> = [meshes, clips, planes, lights].into_iter().flatten().collect();
     let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.
     let volume = file.unwrap_or_else(built_in);
     shown(&format!("{volume}{with}{}, {tf}", geometry.join(" and ")).replace('\n', "\\n"))
+}
+
+/// What the iso-surfaces of a scene are called: `iso 120`, with how they are found where that is not the usual way.
+fn surface_name(settings: &Settings) -> String {
+    let (surface, asked) = (&settings.surface, settings.surface.asked());
+    let mut name = match &asked[..] {
+        [one] => format!("iso {}", one.iso),
+        several => format!("{} iso-surfaces", several.len()),
+    };
+    if surface.find == Find::Range {
+        name += " as a range";
+    }
+    match surface.refine {
+        Refine::None => name += ", not refined",
+        Refine::Linear => {}
+        Refine::Exact => name += ", to the root",
+    }
+    name
 }
 
 /// The names of methods, each with what it is.

@@ -11,7 +11,9 @@ mod counting;
 mod decisions;
 mod distances;
 mod early_ends;
+pub mod environment;
 mod extra_fetches;
+pub mod gradients;
 mod holes;
 mod interpolation;
 mod last_sample;
@@ -31,6 +33,7 @@ pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
+pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
 pub use surface::ISO_SURFACE;
@@ -42,6 +45,7 @@ use classification::CLASSIFICATION;
 use colors::COLORS;
 use decisions::LATER_DECISIONS;
 use extra_fetches::EXTRA_FETCHES;
+use gradients::{GRADIENT_TEXTURE, GRADIENTS_BESIDE_SAMPLES};
 use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
@@ -53,7 +57,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 29] = [
+pub const FEATURES: [&Feature; 32] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -82,7 +86,10 @@ pub const FEATURES: [&Feature; 29] = [
     &CLIP_PLANES,
     &ISO_SURFACE,
     &LIT_SAMPLES,
+    &GRADIENT_TEXTURE,
+    &GRADIENTS_BESIDE_SAMPLES,
     &LIGHT_COLORS,
+    &ENVIRONMENT,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

@@ -7,7 +7,7 @@ use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::projection::{self, COMPOSITE};
 use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Filter, Offset, Refine};
+use crate::scene::settings::{Accumulate, Filter, Offset, Refine, Shows};
 
 /// Iso-surfaces that rays look for in place of colours [KW03 §2.2, Thesis ch. 5 §3.2].
 pub const ISO_SURFACE: Feature = Feature {
@@ -32,6 +32,20 @@ pub fn refine(context: &Context) -> Constant {
         Refine::Exact => 2,
     };
     ("REFINE", code)
+}
+
+/// Whether the surface's colours show, which lights and a normal make.
+pub fn is_lit(context: &Context) -> bool {
+    context.scene.settings.surface.shows == Shows::Color
+}
+
+/// Of `lighting.frag`: what it shows of a surface; no define where that is its colour.
+pub fn shows(context: &Context) -> Option<&'static str> {
+    match context.scene.settings.surface.shows {
+        Shows::Color => None,
+        Shows::Position => Some("SHOWS_POSITION"),
+        Shows::Normal => Some("SHOWS_NORMAL"),
+    }
 }
 
 /// Whether a scene's surfaces can be drawn as it asks.
@@ -75,8 +89,33 @@ pub fn check(scene: &Scene) -> Result<()> {
             "has a surface with an opacity below 1, and rays of several passes end at the first surface that they meet",
             "give opacity = 1, or leave it out",
         ),
+        () if settings.surface.shows != Shows::Color => check_numbers(scene),
         () => Ok(()),
     }
+}
+
+/// Whether a picture can hold places or normals, which are numbers of either sign.
+fn check_numbers(scene: &Scene) -> Result<()> {
+    let accumulate = match scene.settings.image.accumulate {
+        Accumulate::Rgba32f => None,
+        Accumulate::Rgba16f => Some("rgba16f"),
+        Accumulate::Rgba8 => Some("rgba8"),
+    };
+    if let Some(name) = accumulate {
+        return refuse(
+            &format!("image.accumulate (--accumulate {name})"),
+            "holds colours, and has too few digits, or no sign, for the places and normals that surface.shows (--surface-shows) asks for",
+            "use rgba32f, or show colours",
+        );
+    }
+    if scene.polygons.show() {
+        return refuse(
+            "mesh",
+            "has polygons, whose colours would be blended with the places or normals that surface.shows (--surface-shows) asks for",
+            "leave the meshes out, or show colours",
+        );
+    }
+    Ok(())
 }
 
 fn refuse(input: &str, problem: &str, remedy: &str) -> Result<()> {

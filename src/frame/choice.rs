@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::method;
 use crate::part::form::Form;
 use crate::plan::{self, Choice, Plan};
-use crate::resource::largest_buffer;
+use crate::resource::{gradient_bytes, largest_buffer};
 use crate::scene::Scene;
 use crate::scene::settings::Builder;
 use crate::structure::Lookup;
@@ -17,16 +17,18 @@ use crate::vulkan::Device;
 pub fn plan_on(device: &Device, scene: &Scene, form: Option<Form>, lookup: Option<Lookup>) -> Result<Plan> {
     let distance = method::of(scene.settings.method.name)?.distance();
     let looked_up = lookup.or_else(|| distance.map(|distance| Lookup::new(scene, distance)));
-    let on_host = looked_up.is_some_and(|lookup| builds_on_host(device, scene, &lookup));
+    let on_host = builds_on_host(device, scene, looked_up);
     plan::plan_for(scene, Choice { form, on_host, lookup })
 }
 
-/// Whether the host builds distances: where it is asked to, where the device has no room to, and on a device that is a CPU,
+/// Whether the host builds distances and gradients: where it is asked to, where the device has no room to, and on a device that is a CPU,
 /// for which the host is the faster (`cargo bench --bench build`).
-fn builds_on_host(device: &Device, scene: &Scene, lookup: &Lookup) -> bool {
+fn builds_on_host(device: &Device, scene: &Scene, lookup: Option<Lookup>) -> bool {
+    let gradients = if scene.has_gradient_texture() { gradient_bytes(scene) } else { 0 };
+    let largest = lookup.map_or(0, |lookup| largest_buffer(&scene.field, &lookup)).max(gradients);
     match scene.settings.method.build {
         Builder::Host => true,
-        _ if largest_buffer(&scene.field, lookup) > device.info.max_storage_buffer => true,
+        _ if largest > device.info.max_storage_buffer => true,
         Builder::Device => false,
         Builder::Auto => device.info.is_cpu(),
     }

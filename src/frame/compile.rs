@@ -140,6 +140,16 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             "choose another image.accumulate: rgba32f, rgba16f or rgba8",
         ));
     }
+    let hit = resource::SURFACE_HIT.format(formats);
+    if usages.contains_key(&resource::SURFACE_HIT)
+        && !device.format_supports(hit, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND)
+    {
+        return Err(Error::device(
+            &device.info.name,
+            format!("cannot blend into {hit:?}, which rays look for an iso-surface with"),
+            "leave the iso-surface out, or use another device",
+        ));
+    }
     let stored = resource::STORED.format(formats);
     if usages.contains_key(&resource::STORED)
         && !device.format_supports(stored, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT)

@@ -98,7 +98,7 @@ pub const SUB_PIXEL_BITS: u32 = 8;
 /// Runs the plan as a device whose rasteriser has a raster of 2^-`sub_pixel_bits` pixels would.
 pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: u32) -> CpuFrame {
     let height = plan.view.size[1];
-    let table = structures.table(scene);
+    let (table, gradients) = (structures.table(scene), structures.gradients(scene));
     let projection = projection::of(&scene.settings);
     let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
     let surface_values: Vec<[f64; 2]> =
@@ -111,6 +111,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
         table: table.as_deref(),
+        gradients: gradients.as_deref(),
         projection,
         fused: plan.method.fused,
         levels: projection.levels_in_x(scene),

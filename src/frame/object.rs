@@ -8,6 +8,7 @@ use super::build::Bindable;
 use super::upload;
 use crate::error::{Error, Result};
 use crate::part::resource::{Facts, Resource, ResourceKind, Texture};
+use crate::resource;
 use crate::scene::settings::Filter;
 use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
 
@@ -56,7 +57,10 @@ impl DeviceObject {
 pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<DeviceObject> {
     let bytes = || resource.bytes(facts);
     match &resource.of.kind {
-        ResourceKind::Texture(texture) => image(device, resource, texture, facts).map(DeviceObject::Image),
+        ResourceKind::Texture(texture) => {
+            check_format(device, resource, texture, facts)?;
+            image(device, resource, texture, facts).map(DeviceObject::Image)
+        }
         _ => buffer(device, resource, bytes(), Place::Device).map(DeviceObject::Buffer),
     }
 }
@@ -68,7 +72,7 @@ pub fn empty(device: &Arc<Device>, resource: Resource, facts: &Facts) -> Result<
 pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[u8]) -> Result<DeviceObject> {
     match &resource.of.kind {
         ResourceKind::Texture(texture) => {
-            check_format(device, (texture.format)(facts), texture.filtered && interpolates(facts))?;
+            check_format(device, resource, texture, facts)?;
             let image = image(device, resource, texture, facts)?;
             upload::image(device, &image, bytes)?;
             Ok(DeviceObject::Image(image))
@@ -79,10 +83,6 @@ pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[
             Ok(DeviceObject::Buffer(buffer))
         }
     }
-}
-
-fn interpolates(facts: &Facts) -> bool {
-    facts.scene.settings.sampling.filter == Filter::Hardware
 }
 
 fn buffer(device: &Arc<Device>, resource: Resource, size: u64, place: Place) -> Result<Buffer> {
@@ -110,7 +110,9 @@ fn image(device: &Arc<Device>, resource: Resource, texture: &Texture, facts: &Fa
     Image::new(device, info)
 }
 
-fn check_format(device: &Device, format: vk::Format, linear: bool) -> Result<()> {
+fn check_format(device: &Device, resource: Resource, texture: &Texture, facts: &Facts) -> Result<()> {
+    let format = (texture.format)(facts);
+    let linear = texture.filtered && facts.scene.settings.sampling.filter == Filter::Hardware;
     let needed = if linear {
         vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR
     } else {
@@ -119,7 +121,9 @@ fn check_format(device: &Device, format: vk::Format, linear: bool) -> Result<()>
     if device.format_supports(format, needed) {
         return Ok(());
     }
-    let (problem, remedy) = if linear {
+    let (problem, remedy) = if resource.of.name == resource::GRADIENTS.of.name {
+        (format!("cannot interpolate {format:?} gradients"), "use --filter exact, or --gradient-texture rgba16f")
+    } else if linear {
         (format!("cannot interpolate {format:?} volumes"), "use --filter exact, or --texture r16")
     } else {
         (format!("cannot read {format:?} textures"), "use another --texture")

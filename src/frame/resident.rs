@@ -82,6 +82,15 @@ impl Resident {
         self.distance(lookup).map(|image| upload::read_sampled(&self.device, image)).transpose()
     }
 
+    /// The gradients of the scene's volume as the device has them, texels x fastest; none where they were not built.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn read_gradients(&self, scene: &Scene) -> Result<Option<Vec<u8>>> {
+        let image = self.made(resource::gradients(scene), None).and_then(DeviceObject::image);
+        image.map(|image| upload::read_sampled(&self.device, image)).transpose()
+    }
+
     /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
     pub fn table(&mut self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
         let asked = scene.settings.sampling.preintegrates();

@@ -158,8 +158,8 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     let transfer =
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
     let (field, polygons, unit) = (Arc::new(field), Arc::default(), TextureUnit::default());
-    let planes = ClipPlanes::default();
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface: None, lights: Vec::new(), unit })
+    let (planes, lights) = (ClipPlanes::default(), Vec::new());
+    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface: None, lights, environment: None, unit })
 }
 
 struct FormRun {

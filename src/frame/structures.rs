@@ -10,6 +10,8 @@ use crate::projection::Shown;
 use crate::resource;
 use crate::resource::texels::Texels;
 use crate::scene::Scene;
+use crate::scene::gradients::GradientCoding;
+use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
 use crate::truth::preintegrated::PreintegratedTable;
@@ -28,6 +30,8 @@ pub struct Built<T> {
 pub struct Structures {
     pub distances: Vec<(Lookup, Built<DistanceField>)>,
     pub blocks: Option<Built<Blocks>>,
+    /// Gradients, where a frame reads them from a texture.
+    pub gradients: Option<Arc<GradientTexels>>,
     /// Of pre-integrated classification, for one transfer function and one step.
     pub table: Option<Arc<PreintegratedTable>>,
 }
@@ -37,6 +41,7 @@ impl Structures {
     /// view besides, so that plans of one scene may share it.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
         self.table = self.table(scene);
+        self.gradients = self.gradients(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::of(scene);
             let build = || structure::build(&scene.field, &texels.values, &texels.shown(scene), &lookup);
@@ -52,6 +57,15 @@ impl Structures {
     pub fn table(&self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
         let new = || self.table.clone().unwrap_or_else(|| Arc::new(PreintegratedTable::new(scene)));
         scene.settings.sampling.preintegrates().then(new)
+    }
+
+    /// The gradients, where the scene reads them from a texture: those that are here, or new ones.
+    pub fn gradients(&self, scene: &Scene) -> Option<Arc<GradientTexels>> {
+        let new = || {
+            let (texels, operator) = (Texels::of(scene), scene.settings.shading.gradient);
+            Arc::new(GradientTexels::new(&scene.field, &texels.values, operator, GradientCoding::of(scene)))
+        };
+        scene.has_gradient_texture().then(|| self.gradients.clone().unwrap_or_else(new))
     }
 
     /// The distances of that kind, where they were built.

@@ -121,7 +121,8 @@ pub struct TextureRecord {
     /// A bound of the error of an interpolated x, as a part of the scalar range; `null` where there is none.
     #[serde(with = "null_is_infinite")]
     pub x_error: f64,
-    /// A bound of what the error of x changes of a channel, premultiplied and linear.
+    /// A bound of what the error of x changes of a channel, premultiplied and linear; `null` as above.
+    #[serde(with = "null_is_infinite")]
     pub pixel_error: f64,
     /// Whether the bounds are those of a device that was measured; `plan` asks none.
     #[serde(default)]

@@ -109,8 +109,8 @@ impl<'a> Runner<'a> {
         Ok(measured)
     }
 
-    /// Changes settings that leave volume, transfer function and view as they are: of sampling, and the format colours are
-    /// summed up in.
+    /// Changes settings that leave volume, transfer function and view as they are: of sampling, what surfaces show, and the format
+    /// colours are summed up in.
     pub fn vary(&mut self, change: impl FnOnce(&mut Settings)) {
         change(&mut self.scene.settings);
         self.references.clear();

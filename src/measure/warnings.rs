@@ -5,6 +5,7 @@ use crate::plan::{self, Plan};
 use crate::projection::{self, Ends};
 use crate::resource;
 use crate::scene::Scene;
+use crate::scene::settings::Shows;
 
 /// The warnings of a run, a sentence each.
 pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
@@ -85,13 +86,12 @@ fn clipped(scene: &Scene, picture: &Picture) -> Option<String> {
     let colors = || picture.pixels.iter().flat_map(|pixel| &pixel[..3]).copied();
     let [least, greatest] = [colors().fold(0.0, f32::min), colors().fold(1.0, f32::max)];
     (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
-        let advice = match (scene.lights.is_empty(), &scene.surface) {
-            (false, _) => "weaker lights",
-            (true, Some(_)) => "darker colours of the surface",
-            (true, None) => "another --range",
+        let advice = match (&scene.surface, scene.lights.is_empty()) {
+            (Some(_), _) if scene.settings.surface.shows != Shows::Color => "",
+            (_, false) => ", or give weaker lights",
+            (Some(_), true) => ", or give darker colours of the surface",
+            (None, true) => ", or give another --range",
         };
-        format!(
-            "the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY, or give {advice}"
-        )
+        format!("the picture's values run from {least} to {greatest}, and a PNG shows 0 to 1: write EXR or NPY{advice}")
     })
 }

@@ -126,7 +126,7 @@ pub enum Work {
     /// To transparent black.
     Clear(Resource),
     Dispatch(Dispatch),
-    /// Distances, packed into bytes, to the texture that frames read.
+    /// Texels of a build, made in a buffer, to the texture that frames read.
     Unpack {
         from: Resource,
         to: Resource,

@@ -42,7 +42,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::spans(scene)]);
     draw.specialize(feature::constants(context, Hook::Sample));
     draw.specialize(feature::constants(context, Hook::Decide));
-    let rounding = twin::fused::blend_rounding(scene.settings.image.accumulate);
+    let rounding = twin::fused::rounding_of_gathered(scene);
     draw.specialize([("BLEND_ROUNDING", rounding.to_bits()), constants::projection(context)]);
     cull::cull_by_stored(&mut draw, &mut accesses, form.cull, section_end(pass, context.passes) as f32);
     if pass + 1 < context.passes || context.section < context.layers {

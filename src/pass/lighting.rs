@@ -1,7 +1,8 @@
 //! The lighting pass of iso-surfaces, once for all rays [Thesis ch. 5 §3.2].
 
 use super::constants;
-use crate::feature::{self, lights, surface};
+use crate::feature::gradients::{self, GRADIENT_TEXTURE};
+use crate::feature::{self, ENVIRONMENT, lights, surface};
 use crate::geometry::BOX_FRONT;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
@@ -10,9 +11,9 @@ use crate::part::{Draw, Group, Step};
 use crate::resource;
 use crate::twin;
 
-/// Puts the lit colours of surfaces under what is in front of them.
+/// Puts the lit colours of surfaces under what is in front of them, or their places or normals.
 pub fn lighting(context: &Context) -> Step {
-    let accesses = vec![
+    let mut accesses = vec![
         Usage::Vertices.of(resource::BOX),
         Usage::Sampled.of(resource::FRAME),
         Usage::Sampled.of(resource::ENTRY),
@@ -20,11 +21,25 @@ pub fn lighting(context: &Context) -> Step {
         Usage::Sampled.of(resource::VOLUME),
         Usage::Sampled.of(resource::SURFACE_HIT),
         Usage::Sampled.of(resource::SURFACE_LEVELS),
-        Usage::Sampled.of(lights::lights(context)),
-        Usage::Color.of(resource::ACCUMULATED),
     ];
+    accesses.extend(surface::is_lit(context).then(|| Usage::Sampled.of(lights::lights(context))));
+    let precomputed = context.has(&GRADIENT_TEXTURE);
+    accesses.extend(precomputed.then(|| Usage::Sampled.of(resource::gradients(context.scene))));
+    let reflects = context.has(&ENVIRONMENT);
+    let environment = if reflects { (ENVIRONMENT.reads)(context) } else { Vec::new() };
+    accesses.extend(environment.into_iter().map(|resource| Usage::Sampled.of(resource)));
+    accesses.push(Usage::Color.of(resource::ACCUMULATED));
     let mut draw = Draw::plain(&BOX_FRONT, "lighting.frag", twin::lighting::lighting);
     draw.blend = Blend::Over;
+    draw.define(surface::shows(context));
+    if precomputed {
+        draw.define(["GRADIENTS"]);
+        draw.specialize([gradients::codes(context.scene)]);
+    }
+    draw.define(ENVIRONMENT.define(context));
+    if reflects {
+        draw.specialize((ENVIRONMENT.constants)(context));
+    }
     draw.specialize([constants::samples(context.scene)]);
     let sampling = feature::constants(context, Hook::Sample);
     draw.specialize(sampling.into_iter().filter(|(name, _)| SAMPLING.contains(name)));

@@ -156,6 +156,8 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::layers::check(scene)?;
     feature::surface::check(scene)?;
     feature::lights::check(scene)?;
+    feature::environment::check(scene)?;
+    feature::gradients::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view);
     check_passes(scene, method, passes)?;

@@ -7,10 +7,12 @@
 //!
 //! Where a projection shows values, its row says what a difference in every sample becomes.
 
+use std::sync::Arc;
+
 use crate::projection::{self, OfValues};
-use crate::scene::settings::{Alpha, Last};
+use crate::scene::settings::{Alpha, Last, Shows};
 use crate::scene::transfer::Knot;
-use crate::scene::{Scene, Surface};
+use crate::scene::{Environment, Scene, Surface};
 use crate::twin::fused::blend_rounding;
 
 /// What f32 takes from a sum by each sample.
@@ -25,7 +27,7 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if scene.surface.is_some() || !scene.lights.is_empty() {
         // A ray that misses a surface by a little has none of its colour, and where values hardly change a gradient may point
         // anywhere.
-        return if error == 0.0 { 0.0 } else { brightest_lit(scene) };
+        return if error == 0.0 { 0.0 } else { largest_shown(scene) };
     }
     let sampling = &scene.settings.sampling;
     let brightest = scene.transfer.knots().iter().flat_map(|k| k.color).fold(1.0, f64::max);
@@ -40,6 +42,16 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
         .min(brightest)
 }
 
+/// The most by which two pixels of a surface or of lit samples may differ.
+fn largest_shown(scene: &Scene) -> f64 {
+    match (&scene.surface, scene.settings.surface.shows) {
+        (Some(_), Shows::Position) => scene.field.extent().max_element().max(1.0),
+        // Two opposite ones.
+        (Some(_), Shows::Normal) => 2.0,
+        _ => brightest_lit(scene),
+    }
+}
+
 /// The brightest that a surface or a sample of a scene with lights may be, or its opacity.
 fn brightest_lit(scene: &Scene) -> f64 {
     let samples = || scene.transfer.knots().iter().map(|knot| knot.color).collect();
@@ -49,7 +61,12 @@ fn brightest_lit(scene: &Scene) -> f64 {
     let channel = |color: &[f64; 3], c: usize| -> f64 {
         lights.iter().map(|light| color[c] * (light.ambient[c] + light.diffuse[c]) + light.specular[c]).sum()
     };
-    colors.iter().flat_map(|color| (0..3).map(|c| channel(color, c))).fold(1.0, f64::max)
+    let lit = colors.iter().flat_map(|color| (0..3).map(|c| channel(color, c))).fold(1.0, f64::max);
+    let reflecting = |environment: &Arc<Environment>| {
+        let part = environment.reflectivity;
+        ((1.0 - part) * lit + part * environment.picture.brightest()).max(1.0)
+    };
+    scene.environment.as_ref().map_or(lit, reflecting)
 }
 
 /// What samples and blending of both pictures take from a sum about 1.

@@ -15,9 +15,11 @@ use crate::structure::cells::any_interesting;
 pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
     warnings.extend(scene.polygons.warnings.clone());
+    warnings.extend(scene.environment.iter().flat_map(|environment| environment.warnings.clone()));
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
+    warnings.extend(rounded_beside_gradients(scene));
     warnings.extend(plan.method.on_device.then(|| out_of_format(scene, plan)).flatten());
     warnings
 }
@@ -67,10 +69,10 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     if projection::of(&scene.settings).shows_values() || any_interesting(scene) {
         return None;
     }
-    if scene.surface.is_some() {
+    if scene.surface.is_some() && field.missing < field.values.len() {
         return Some(no_surface(scene));
     }
-    if scene.transfer.knots().iter().all(|knot| knot.opacity == 0.0) {
+    if scene.surface.is_none() && scene.transfer.knots().iter().all(|knot| knot.opacity == 0.0) {
         return Some(format!("the picture is empty: the transfer function {} has no opacity", scene.transfer.name));
     }
     let count = field.values.len();
@@ -110,7 +112,17 @@ fn no_surface(scene: &Scene) -> String {
     let asked: Vec<String> = surface.asked().iter().map(|level| level.iso.to_string()).collect();
     let [least, most] = field.value_extremes().unwrap_or(field.range);
     let asked = asked.join(", ");
-    let values = format!("values run from {least} to {most}");
+    let values = match least == most {
+        true => format!("every value is {least}"),
+        false => format!("values run from {least} to {most}"),
+    };
+    if field.has_empty_range() && least < most {
+        let [low, _] = field.range;
+        return format!(
+            "the picture is empty: the scalar range is the one value {low}, which every voxel then has, and {asked} is not it, where \
+             {values}; give another --range"
+        );
+    }
     match surface.find {
         Find::Crossing => {
             format!("the picture is empty: no value reaches {asked}, where {values}; give a smaller --iso")
@@ -174,6 +186,20 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
         texture.name(),
         Within(settings.volume.precision)
     ))
+}
+
+/// That samples take their values from where they are rounded.
+fn rounded_beside_gradients(scene: &Scene) -> Option<String> {
+    let (slack, asked) = (scene.value_slack(), scene.settings.volume.precision);
+    (slack > asked).then(|| {
+        format!(
+            "beside gradients kept as {} the x of a voxel is off by up to {}, more than the {} asked for; use --gradient-texture \
+             rgba32f, or --gradients on-the-fly",
+            scene.settings.shading.texture.name(),
+            Within(slack),
+            Within(asked)
+        )
+    })
 }
 
 /// That values are shown which the format of the picture may not hold.

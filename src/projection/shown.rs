@@ -8,8 +8,8 @@ use crate::scene::{Scene, TransferFunction};
 /// What shows among values of one unit: x, or the texture's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shown {
-    /// Where the transfer function has any opacity.
-    Visible(TransferFunction),
+    /// Where the transfer function has any opacity, or a value that is off by no more than `slack` may find some.
+    Visible { transfer: TransferFunction, slack: f64 },
     /// Values in these closed intervals, rising and apart.
     Within(Vec<[f64; 2]>),
 }
@@ -22,7 +22,10 @@ impl Shown {
         }
         let projection = of(&scene.settings);
         match &projection.values {
-            None => Self::Visible(scene.transfer.mapped(|x| map.value(x))),
+            None => Self::Visible {
+                transfer: scene.transfer.mapped(|x| map.value(x)),
+                slack: scene.value_slack() * map.scale.abs(),
+            },
             Some(values) => Self::Within((values.counting)(&projection.levels(scene, map))),
         }
     }
@@ -35,7 +38,7 @@ impl Shown {
     /// Whether anything in `[low, high]` shows.
     pub fn anywhere(&self, low: f64, high: f64) -> bool {
         match self {
-            Self::Visible(transfer) => transfer.visible(low, high),
+            Self::Visible { transfer, slack } => transfer.visible(low - slack, high + slack),
             Self::Within(intervals) => intervals.iter().any(|[from, to]| low <= *to && high >= *from),
         }
     }
@@ -43,7 +46,10 @@ impl Shown {
     /// The least and the greatest value at which what shows may change.
     pub fn turns(&self) -> [f64; 2] {
         match self {
-            Self::Visible(transfer) => [0, transfer.knots().len() - 1].map(|i| transfer.knots()[i].x),
+            Self::Visible { transfer, slack } => {
+                let knots = transfer.knots();
+                [knots[0].x - slack, knots[knots.len() - 1].x + slack]
+            }
             Self::Within(intervals) => {
                 let ends = || intervals.iter().flatten().copied().filter(|end| end.is_finite());
                 [ends().fold(f64::INFINITY, f64::min), ends().fold(f64::NEG_INFINITY, f64::max)]
@@ -65,6 +71,6 @@ fn apart(intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 impl From<&TransferFunction> for Shown {
     fn from(transfer: &TransferFunction) -> Self {
-        Self::Visible(transfer.clone())
+        Self::Visible { transfer: transfer.clone(), slack: 0.0 }
     }
 }

@@ -5,6 +5,8 @@
 //!
 //! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
+mod environment;
+mod exr_header;
 mod keys;
 pub mod mesh;
 pub mod nrrd;
@@ -21,6 +23,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+pub use environment::environment;
 pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};
 pub use scene::{scene, scene_of, settings, settings_from_json, settings_of};

@@ -116,6 +116,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let volume = volume(settings)?;
     let camera = camera.in_axes_of(volume.turn);
     let polygons = Arc::new(polygons(settings, volume.turn)?);
+    let environment = super::environment(&settings.environment, &polygons, volume.turn)?.map(Arc::new);
     let back = volume.turn.inverse();
     let field = Field::of(volume, &settings.volume.normalisation())?;
     let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
@@ -124,7 +125,8 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let surface = Surface::of(settings, &field, &transfer);
     let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
     let (settings, field) = (settings.clone(), Arc::new(field));
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, unit: TextureUnit::default() })
+    let unit = TextureUnit::default();
+    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, environment, unit })
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.

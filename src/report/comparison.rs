@@ -41,7 +41,8 @@ pub fn comparable(a: &Run, b: &Run) -> bool {
         && (&s.volume, &s.transfer, &s.camera, &s.image, &s.projection, &s.sampling)
             == (&t.volume, &t.transfer, &t.camera, &t.image, &t.projection, &t.sampling)
         && (&s.meshes, &s.clips, s.layers.most) == (&t.meshes, &t.clips, t.layers.most)
-        && (&s.surface, &s.lights) == (&t.surface, &t.lights)
+        && (&s.surface, &s.lights, &s.shading) == (&t.surface, &t.lights, &t.shading)
+        && s.environment == t.environment
 }
 
 /// The method with the switches that change its counts.

@@ -4,14 +4,18 @@
 //! Passes name it in their accesses; who makes it stands in its [`crate::part::resource::Origin`]: frames, the host, or a build
 //! in `crate::pass::build`.
 
+mod environment;
 mod frame;
+mod gradients;
 mod layers;
 mod look;
 mod structure;
 mod surface;
 pub mod texels;
 
+pub use environment::{ENVIRONMENT, ENVIRONMENT_PLACE};
 pub use frame::{ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
+pub use gradients::{GRADIENT_TEXELS, GRADIENTS, gradient_bytes, gradients};
 pub use layers::{
     CLIP_WINDING, LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES,
 };
@@ -25,7 +29,7 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 42] = [
+pub const RESOURCES: [Resource; 46] = [
     BOX,
     FRAME,
     CLIP_PLANES,
@@ -48,8 +52,12 @@ pub const RESOURCES: [Resource; 42] = [
     SURFACE_LEVELS,
     LIGHTS,
     WHITE_LIGHTS,
+    ENVIRONMENT,
+    ENVIRONMENT_PLACE,
     VOLUME,
     HOLES,
+    GRADIENTS,
+    GRADIENT_TEXELS,
     TRANSFER,
     GREY_TRANSFER,
     PREINTEGRATED,

@@ -37,6 +37,13 @@ pub struct LitPoint {
     pub view: DVec3,
 }
 
+impl LitPoint {
+    /// The normal of length 1, turned to the eye; none where there is none.
+    pub fn turned(&self) -> Option<DVec3> {
+        self.normal.try_normalize().map(|normal| if normal.dot(self.view) < 0.0 { -normal } else { normal })
+    }
+}
+
 impl Light {
     /// A white light at the eye.
     pub fn headlight(eye: DVec3) -> Self {
@@ -77,7 +84,7 @@ impl Light {
 /// a light in the point itself or behind the surface, it has the ambient part alone; the specular part does not take the
 /// surface's colour, and is 0 where the diffuse one is [Thesis §4.2.1].
 pub fn lit(color: [f64; 3], lights: &[Light], point: &LitPoint) -> [f64; 3] {
-    let normal = point.normal.try_normalize().map(|n| if n.dot(point.view) < 0.0 { -n } else { n });
+    let normal = point.turned();
     let mut sum = [0.0; 3];
     for light in lights {
         let facing = normal.zip(light.from(point.place)).map(|(n, way)| (n, way, n.dot(way)));

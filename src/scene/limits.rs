@@ -37,6 +37,9 @@ const SMALL: f64 = 1e-6;
 /// Numbers from this on are told as `1e30`.
 const LARGE: f64 = 1e15;
 
+/// Colours beyond this, in light, have no number in single precision.
+pub const BRIGHTEST: f64 = 1e6;
+
 impl Limits {
     pub const fn new(allowed: Allowed, what: &'static str) -> Self {
         Self { allowed, what }

@@ -2,9 +2,11 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod environment;
 pub mod field;
 pub(crate) mod file_name;
 mod fixed;
+pub mod gradients;
 pub mod light;
 pub mod limits;
 pub mod longest;
@@ -16,6 +18,7 @@ pub mod range;
 pub mod region;
 pub mod scenes;
 pub mod settings;
+mod sky;
 pub mod surface;
 pub mod texture;
 pub mod transfer;
@@ -26,6 +29,7 @@ mod volume_choice;
 use std::sync::Arc;
 
 pub use camera::Camera;
+pub use environment::Environment;
 pub use field::Field;
 pub use light::Light;
 pub use mesh::Polygons;
@@ -52,6 +56,8 @@ pub struct Scene {
     pub surface: Option<Surface>,
     /// Lights that are given, in the volume's axes.
     pub lights: Vec<Light>,
+    /// What the iso-surfaces reflect.
+    pub environment: Option<Arc<Environment>>,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
 }

@@ -1,12 +1,14 @@
 //! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
 
 mod bundle;
+mod environment;
 mod planes;
 mod polygons;
 mod slice;
 mod surface;
 
 pub use bundle::Bundle;
+pub use environment::environment_rows;
 pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
 pub use slice::Slice;

@@ -36,7 +36,7 @@ pub struct Support(Vec<[f32; 2]>);
 impl Support {
     pub fn of(shown: &Shown) -> Self {
         let intervals = match shown {
-            Shown::Visible(transfer) => visible(transfer),
+            Shown::Visible { transfer, slack } => visible(transfer, *slack),
             Shown::Within(intervals) => intervals.clone(),
         };
         // A range of f32 meets an interval exactly when it meets the f32 within; where there is none, `low` ends up
@@ -62,15 +62,15 @@ impl Support {
     }
 }
 
-/// Where a transfer function has any opacity: closed intervals, rising and apart.
-fn visible(transfer: &TransferFunction) -> Vec<[f64; 2]> {
+/// Where a transfer function has any opacity, or has within `slack`: closed intervals, rising and apart.
+fn visible(transfer: &TransferFunction, slack: f64) -> Vec<[f64; 2]> {
     let knots = transfer.knots();
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     // In f64 first, every number a point: an open interval is a closed one between its inner neighbours.
     let mut closed: Vec<[f64; 2]> = Vec::new();
-    let mut put = |low: f64, high: f64| match closed.last_mut() {
-        Some(before) if low <= before[1].next_up() => before[1] = before[1].max(high),
-        _ => closed.push([low, high]),
+    let mut put = |low: f64, high: f64| match (closed.last_mut(), [low - slack, high + slack]) {
+        (Some(before), [low, high]) if low <= before[1].next_up() => before[1] = before[1].max(high),
+        (_, wider) => closed.push(wider),
     };
     if first.opacity > 0.0 {
         put(f64::NEG_INFINITY, first.x);

@@ -4,6 +4,7 @@ pub mod blocks;
 pub mod bundle;
 pub mod cells;
 pub mod distance;
+pub mod gradients;
 pub mod grid;
 pub mod octants;
 pub mod ranges;

@@ -44,7 +44,7 @@ use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::light::{LitPoint, lit};
 use crate::scene::mesh::DividedRay;
-use crate::scene::settings::Filter;
+use crate::scene::settings::{Filter, Shows};
 use crate::scene::{Field, Polygons, Scene, TransferFunction};
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
@@ -146,13 +146,21 @@ impl<'a> ExactIntegrator<'a> {
         light.rgba()
     }
 
-    /// The colour of the surface that a ray meets first, lit by the gradient of the interpolant.
+    /// The colour of the surface that a ray meets first, lit and reflecting by the gradient of the interpolant, or what else the scene
+    /// shows of it.
     fn surface(&self, scene: &Scene, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
         let levels = scene.surface.iter().flat_map(|surface| &surface.levels);
         let (ranges, colors): (Vec<[f64; 2]>, Vec<[f64; 3]>) = levels.map(|level| (level.values, level.color)).unzip();
         let Some(found) = self.first_within(entry, direction, length, &ranges) else { return [0.0; 4] };
         let point = LitPoint { place: entry + found.t * direction, normal: found.gradient, view: -direction };
-        let [r, g, b] = lit(colors[found.range], &scene.shining(), &point);
+        let [r, g, b] = match scene.settings.surface.shows {
+            Shows::Color => {
+                let lit = lit(colors[found.range], &scene.shining(), &point);
+                scene.environment.as_ref().map_or(lit, |environment| environment.on(lit, point.normal, point.view))
+            }
+            Shows::Position => point.place.to_array(),
+            Shows::Normal => point.turned().unwrap_or_default().to_array(),
+        };
         [r, g, b, 1.0]
     }
 

@@ -1,13 +1,23 @@
 //! Twin of `glsl/lighting.frag`: the exact place of a surface, its normal, and its colour in all lights [Thesis ch. 5 §3.2].
 
+use glam::DVec3;
+
+use super::phong::Shaded;
 use super::{Effect, MetSurface, Pixel, Twin};
 use crate::math::blend::Blend;
 use crate::projection::{first_met, on_surface};
-use crate::scene::settings::Refine;
+use crate::scene::light::LitPoint;
+use crate::scene::settings::{Refine, Shows};
 use crate::truth::exact::ExactIntegrator;
 
 /// Colours that f32 may be off by more than this are left undecided.
 pub(super) const LOOSE: f64 = 1e-3;
+
+/// What f32 takes from a place on a ray, in parts of the volume's longest side.
+const PLACE_ROUNDING: f64 = 5e-7;
+
+/// What f32 takes from a component of a vector that is made of length 1.
+const UNIT_ROUNDING: f64 = 5e-7;
 
 /// Puts the lit colour of the surface that the ray has met under what is in front of it.
 pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
@@ -18,9 +28,14 @@ pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let (place, level) = twin.met(pixel, [front, back]);
     let color = twin.scene.surface.as_ref().map_or([0.0; 3], |surface| surface.levels[level].color);
     let lights = twin.lights;
-    let shaded = twin.shaded(pixel, place.steps, color, lights);
+    let shown = |steps: f64| match twin.scene.settings.surface.shows {
+        Shows::Color => twin.reflecting(pixel, twin.shaded(pixel, steps, color, lights)),
+        Shows::Position => twin.shown_place(pixel, steps),
+        Shows::Normal => twin.shown_normal(pixel, steps),
+    };
+    let shaded = shown(place.steps);
     // A place that is off has another normal.
-    let moved = [-place.rounding, place.rounding].map(|by| twin.shaded(pixel, place.steps + by, color, lights).color);
+    let moved = [-place.rounding, place.rounding].map(|by| shown(place.steps + by).color);
     let apart = |other: &[f64; 3]| (0..3).map(|c| (other[c] - shaded.color[c]).abs()).fold(0.0, f64::max);
     let rounding = moved.iter().map(apart).fold(shaded.rounding, f64::max);
     pixel.rounding = pixel.rounding.max(rounding);
@@ -38,6 +53,26 @@ struct RoundedPlace {
 }
 
 impl Twin<'_> {
+    /// A place of a surface as it is shown, in volume space.
+    fn shown_place(&self, pixel: &Pixel, steps: f64) -> Shaded {
+        let extent = self.scene.field.extent();
+        let place = (self.position_at(pixel, steps) - 0.5) * extent;
+        let rounding = PLACE_ROUNDING * extent.max_element();
+        let unlit = self.shaded(pixel, steps, [0.0; 3], &[]);
+        Shaded { color: place.to_array(), rounding, turns: false, ..unlit }
+    }
+
+    /// The normal of a surface as it is shown: of length 1 and turned to the eye, or 0.
+    fn shown_normal(&self, pixel: &Pixel, steps: f64) -> Shaded {
+        let unlit = self.shaded(pixel, steps, [0.0; 3], &[]);
+        let point = LitPoint { place: DVec3::ZERO, normal: unlit.normal, view: -pixel.direction };
+        let normal = point.turned();
+        // Seen from the side, f32 may turn it the other way.
+        let beside = normal.is_some_and(|normal| normal.dot(point.view).abs() < 2.0 * unlit.angle + UNIT_ROUNDING);
+        let (shown, rounding) = (normal.unwrap_or_default(), 2.0 * unlit.angle + UNIT_ROUNDING);
+        Shaded { color: shown.to_array(), rounding, turns: unlit.turns || beside, ..unlit }
+    }
+
     /// The surface that is met first between two places, one in front of it and one on it, or twice where the ray begins; the number
     /// of the surface. Undecided where f32 may find another surface.
     fn met(&self, pixel: &mut Pixel, [front, back]: [f64; 2]) -> (RoundedPlace, usize) {

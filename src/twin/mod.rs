@@ -5,6 +5,7 @@ pub mod clip_begin;
 pub mod clip_winding;
 pub mod direction;
 pub mod entry;
+mod environment;
 pub mod fused;
 pub mod gradient;
 pub mod layer;
@@ -27,6 +28,7 @@ use crate::projection::{Levels, Projection};
 use crate::scene::mesh::MOST_CLIPS;
 use crate::scene::{Light, Scene};
 use crate::structure::blocks::Blocks;
+use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
 use crate::truth::preintegrated::PreintegratedTable;
 
@@ -47,6 +49,8 @@ pub struct Twin<'a> {
     pub blocks: Option<&'a Blocks>,
     /// Of pre-integrated classification.
     pub table: Option<&'a PreintegratedTable>,
+    /// Gradients, where they are read from a texture.
+    pub gradients: Option<&'a GradientTexels>,
     pub projection: &'static Projection,
     /// Whether main passes mark where rays go on.
     pub fused: bool,

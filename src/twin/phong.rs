@@ -15,12 +15,17 @@ const COSINE_ROUNDING: f64 = 3e-7;
 /// What devices take from a power near 1 by their exponential.
 const POWER_ROUNDING: f64 = 4e-6;
 
+/// What f32 takes from a place, in parts of the volume's longest side.
+const PLACE_ROUNDING: f64 = 5e-7;
+
 /// A lit colour, and how far f32 may be off at the very place unless it turns.
 pub(super) struct Shaded {
     pub color: [f64; 3],
     pub rounding: f64,
     /// Along the gradient, volume space.
     pub normal: DVec3,
+    /// How far f32 may turn the normal, in radians.
+    pub angle: f64,
     /// Whether f32 may turn the normal the other way, or away from a light, so that the colour is another one.
     pub turns: bool,
 }
@@ -40,6 +45,12 @@ impl Twin<'_> {
         for light in lights {
             let largest = |part: [f64; 3]| part.into_iter().fold(0.0, f64::max);
             let shown = largest(std::array::from_fn(|c| color[c] * light.diffuse[c]));
+            // The way to a light nearby is off by what the place is.
+            let near = match light.place {
+                LightPlace::Position(at) => PLACE_ROUNDING / at.distance(point.place).max(f64::MIN_POSITIVE),
+                LightPlace::Direction(_) => 0.0,
+            };
+            let angle = angle + near;
             // The steepest slope of cos(x)^n is below the root of n.
             let steepest = light.shininess.sqrt().max(1.0);
             let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
@@ -47,7 +58,7 @@ impl Twin<'_> {
             turns |= angle > 0.0 && self.turns(light, &point, angle);
         }
         let brightest = shaded.into_iter().fold(0.0, f64::max);
-        Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, turns }
+        Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, angle, turns }
     }
 
     /// Whether a normal that is off by that angle may be turned the other way, or away from the light.

@@ -13,10 +13,10 @@ use crate::scene::settings::{Alpha, Filter, Last};
 use crate::truth::preintegrated::{PreintegratedTable, part_of};
 
 /// Three interpolations of values about 1 round to a few units of 2^-24.
-const VALUE_ROUNDING: f64 = 3e-7;
+pub(super) const VALUE_ROUNDING: f64 = 3e-7;
 
 /// Places are good to 2^-22 voxels on each axis, over which the value changes by that share of the spread of its cell.
-const PLACE_ROUNDING: f64 = 1e-6;
+pub(super) const PLACE_ROUNDING: f64 = 1e-6;
 
 impl Twin<'_> {
     /// Premultiplied colour of sample `i`.
@@ -26,7 +26,10 @@ impl Twin<'_> {
         if self.in_hole(voxel) {
             return [0.0; 4];
         }
-        let value = self.value(pixel, voxel);
+        let value = match self.gradients {
+            Some(gradients) => self.value_beside(gradients, pixel, voxel),
+            None => self.value(pixel, voxel),
+        };
         let [r, g, b, a] = transfer.evaluate(value);
         let (lit, rounding) = if a > 0.0 { self.lit_sample(pixel, i, [r, g, b]) } else { ([r, g, b], 0.0) };
         let [r, g, b] = lit;
@@ -103,7 +106,7 @@ impl Twin<'_> {
     }
 
     /// Whether `near` holds for any value at which what is made of values, or whether a ray ends, changes at once.
-    fn jumps_near(&self, near: impl Fn(f64) -> bool) -> bool {
+    pub(super) fn jumps_near(&self, near: impl Fn(f64) -> bool) -> bool {
         match (self.projection.values.is_some(), self.projection.ends) {
             (false, _) => self.scene.transfer.jumps().any(near),
             (true, Ends::Reached) => near(self.levels.end),

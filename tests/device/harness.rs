@@ -35,6 +35,8 @@ pub enum Need {
     Data(&'static str),
     /// One driver, whichever it is.
     AnyDriver,
+    /// The time of a driver that others do not stand in for.
+    Thoroughness,
 }
 
 /// Tests that need a device and nothing more, each named after its function.
@@ -76,6 +78,11 @@ const SOME_FORMS: &str = "DEPTHLEAP_SOME_FORMS";
 /// Whether tests that go over all forms of many scenes draw each scene in one of them, and another scene in another.
 pub fn some_forms() -> bool {
     std::env::var_os(SOME_FORMS).is_some()
+}
+
+/// Whether other drivers do more of everything: tests that take minutes here are left to them.
+pub fn least() -> bool {
+    some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
 }
 
 /// A file of `../shared/data`, beside the checkout.
@@ -212,6 +219,9 @@ fn lacks(need: &Need, device: &Device) -> Option<String> {
         Need::NoDepthBounds => device.info.depth_bounds.then(|| "a device without the depth bounds test".to_owned()),
         Need::ComputeFamily => (device.compute.family == device.graphics.family)
             .then(|| "a device that computes on queues of another family".to_owned()),
+        Need::Thoroughness => {
+            least().then(|| format!("what takes minutes, which {SOME_FORMS} and {DRIVER_ONLY} leave to another driver"))
+        }
         Need::Data(_) if std::env::var_os(DRIVER_ONLY).is_some() => {
             Some(format!("real volumes, which {DRIVER_ONLY} leaves to another driver"))
         }

@@ -10,9 +10,14 @@ use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::resource;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{CELLS, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::resource::texels::Texels;
+use depthleap::scene::gradients::GradientCoding;
+use depthleap::scene::settings::{
+    CELLS, Filter, GradientOperator, GradientTexture, Gradients, MethodName, Settings, ShadingSettings, VolumeTexture,
+};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TransferFunction, Volume};
+use depthleap::structure::gradients::texels;
 use depthleap::vulkan::Device;
 
 use crate::frame::scenes::{VIEWS, by, seen};
@@ -64,6 +69,10 @@ pub fn tests() -> Vec<Test> {
     }
     tests.push(test("device_and_host_agree::spacings_and_holes", spacings_and_holes));
     tests.push(test("device_and_host_agree::nothing_and_all_interesting", nothing_and_all_interesting));
+    for operator in [GradientOperator::Central, GradientOperator::Sobel] {
+        let run = move |device: &Arc<Device>| gradients(device, operator);
+        tests.push(test(&format!("device_and_host_agree::gradients::{operator:?}").to_lowercase(), run));
+    }
     tests.push(test("another_transfer_function_keeps_the_ranges", another_transfer_function_keeps_the_ranges));
     tests.into_iter().map(|test| test.within("structure")).collect()
 }
@@ -130,6 +139,42 @@ fn nothing_and_all_interesting(device: &Arc<Device>) {
     if let Ok(invisible) = invisible {
         scene.transfer = invisible;
         agree(device, &scene);
+    }
+}
+
+/// Texels of gradients in every format, to the bit: of volumes kept in 8, in 16 bits and in f32, one voxel thick, of any spacing.
+fn gradients(device: &Arc<Device>, operator: GradientOperator) {
+    let random = |name: &str, dims: [usize; 3], voxels: fn(Vec<f32>) -> Voxels| {
+        let value = |i: usize| (i * 7919 % 997) as f32 / 997.0;
+        let values = (0..dims.iter().product()).map(value).collect();
+        Volume::new(name, dims, [1.0, 2.5, 0.7], voxels(values)).expect("a sound volume")
+    };
+    let bytes = |values: Vec<f32>| Voxels::U8(values.iter().map(|v| (255.0 * v) as u8).collect());
+    let words = |values: Vec<f32>| Voxels::I16(values.iter().map(|v| (9000.0 * v - 4000.0) as i16).collect());
+    let volumes = [
+        random("bytes", [23, 18, 31], bytes),
+        random("a sheet of bytes", [40, 33, 1], bytes),
+        random("words", [19, 22, 17], words),
+        random("numbers", [21, 16, 14], Voxels::F32),
+    ];
+    for volume in volumes {
+        for texture in [GradientTexture::Rgba8, GradientTexture::Rgba16f, GradientTexture::Rgba32f] {
+            let mut settings = Settings::default();
+            settings.surface.iso = Some(0.5);
+            settings.shading = ShadingSettings { gradients: Gradients::Precomputed, gradient: operator, texture };
+            settings.method.name = method::RC_ERT.name();
+            let scene = read::scene_of(&settings, |_| Ok(volume.clone())).expect("a sound scene");
+            let plan = plan(&scene, method::papers_form(method::RC_ERT.name())).expect("a plan");
+            let mut resident = Resident::new(device);
+            resident.prepare(&scene, &plan).expect("room on the device");
+            let found = resident.read_gradients(&scene).expect("a copy").expect("gradients were built");
+            let coding = GradientCoding::of(&scene);
+            let expected = texels(&scene.field, &Texels::of(&scene).values, operator, &coding);
+            let differing = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
+            let first = found.iter().zip(&expected).position(|(a, b)| a != b);
+            let name = format!("{}, {}", volume.name, texture.name());
+            assert_eq!((differing, found.len()), (0, expected.len()), "{name}: the first at {first:?}");
+        }
     }
 }
 

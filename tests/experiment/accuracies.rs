@@ -110,10 +110,12 @@ fn point(step: f64, error: f64, ms: f64) -> Point {
         timed: 3,
         samples: 1_000,
         pareto: false,
+        surface: None,
     }
 }
 
-fn found() -> Accuracy {
+/// Two methods with some pictures each.
+pub fn found() -> Accuracy {
     let curve = |method: &str, variation: &str, points: Vec<Point>| Curve {
         method: method.to_owned(),
         variation: variation.to_owned(),
@@ -122,6 +124,7 @@ fn found() -> Accuracy {
         points,
         expected: Some(1.0),
         remarks: vec!["a remark <here>".to_owned()],
+        surface: None,
     };
     let mut curves = vec![
         curve("rc", "", vec![point(1.0, 1e-3, 10.0), point(0.5, 5e-4, 20.0), point(0.25, 2.5e-4, 40.0)]),

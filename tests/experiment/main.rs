@@ -1,6 +1,7 @@
 //! What each experiment makes of its record, and the battery of stiff scenes.
 
 mod accuracies;
+mod accuracy_surfaces;
 mod compares;
 mod folders;
 mod orbits;

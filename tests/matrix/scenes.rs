@@ -11,8 +11,7 @@ use depthleap::read;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
-    Alpha, Classification, ClipSettings, Filter, Find, Last, LightSettings, MeshSettings, Offset, PartialSegments,
-    Refine, Settings, SurfaceLevel, VolumeTexture,
+    Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last, LightSettings, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows, SurfaceLevel, VolumeTexture,
 };
 use depthleap::scene::{Camera, Scene};
 
@@ -22,7 +21,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 44] = [
+const KINDS: [(&str, Change); 54] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -125,6 +124,21 @@ const KINDS: [(&str, Change); 44] = [
         (s.surface.iso, s.layers.partial, s.layers.most) = (Some(90.0), PartialSegments::Apart, 2);
         s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
     }),
+    ("an iso-surface that reflects the sky", |s| {
+        (s.surface.iso, s.environment.builtin) = (Some(90.0), Some("sky".to_owned()));
+    }),
+    ("an iso-surface that reflects its polygons, refined to the root", |s| {
+        (s.surface.iso, s.surface.refine) = (Some(90.0), Refine::Exact);
+        (s.environment.builtin, s.environment.reflectivity) = (Some("polygons".to_owned()), 0.3);
+        s.meshes = vec![MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+    }),
+    ("places of an iso-surface", |s| {
+        (s.surface.iso, s.surface.refine, s.surface.shows) = (Some(90.0), Refine::Exact, Shows::Position);
+        s.clips = vec![plane([0.3, -0.2, -1.0, 0.1])];
+    }),
+    ("normals of an iso-surface", |s| {
+        (s.surface.iso, s.surface.shows, s.lights) = (Some(90.0), Shows::Normal, two_lights());
+    }),
     ("samples in white light", |s| {
         s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
     }),
@@ -132,11 +146,52 @@ const KINDS: [(&str, Change); 44] = [
         s.lights = two_lights();
         (s.sampling.last, s.meshes) = (Last::Partial, vec![cuboid(0.5, 0.4)]);
     }),
+    ("samples in light, by gradients in a texture", |s| {
+        s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
+        s.shading = gradients(GradientOperator::Central, GradientTexture::Rgba16f);
+    }),
+    ("samples in light, by gradients in 8 bits, with opacities that jump", |s| {
+        s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
+        s.shading = gradients(GradientOperator::Sobel, GradientTexture::Rgba8);
+        s.transfer.points = Some(JUMPS.to_vec());
+    }),
+    ("samples in light, by gradients of the texture unit", |s| {
+        s.lights = two_lights();
+        s.shading = gradients(GradientOperator::Central, GradientTexture::Rgba8);
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        s.sampling.termination = 1.0;
+    }),
+    ("samples in light, by gradients at the nearest voxels", |s| {
+        s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
+        s.shading = gradients(GradientOperator::Central, GradientTexture::Rgba32f);
+        s.sampling.filter = Filter::Nearest;
+    }),
+    ("an iso-surface, by gradients in a texture", |s| {
+        (s.surface.iso, s.surface.refine, s.lights) = (Some(90.0), Refine::Exact, two_lights());
+        s.shading = gradients(GradientOperator::Sobel, GradientTexture::Rgba32f);
+    }),
+    ("an iso-surface, by gradients in 8 bits", |s| {
+        s.surface.iso = Some(120.0);
+        s.shading = gradients(GradientOperator::Central, GradientTexture::Rgba8);
+    }),
     ("layers of steps classified as a whole", |s| {
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
         s.sampling.last = Last::Partial;
     }),
 ];
+
+/// Opacity that comes and goes at once, so that a value that is off shows.
+const JUMPS: [[f64; 5]; 5] = [
+    [0.25, 0.2, 0.4, 1.0, 0.0],
+    [0.25, 0.2, 0.4, 1.0, 0.2],
+    [0.6, 0.9, 0.4, 0.1, 0.3],
+    [0.6, 0.9, 0.4, 0.1, 0.0],
+    [0.9, 0.9, 0.9, 0.1, 0.4],
+];
+
+fn gradients(gradient: GradientOperator, texture: GradientTexture) -> ShadingSettings {
+    ShadingSettings { gradients: Gradients::Precomputed, gradient, texture }
+}
 
 /// A red light from afar with a highlight, and a blue one near the volume.
 fn two_lights() -> Vec<LightSettings> {

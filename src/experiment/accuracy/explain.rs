@@ -3,7 +3,9 @@
 use crate::method;
 use crate::projection::{self, Ends};
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Alpha, Filter, Last, MethodName, Offset, VolumeTexture};
+use crate::scene::settings::{
+    Accumulate, Alpha, Filter, GradientTexture, Gradients, Last, MethodName, Offset, Refine, VolumeTexture,
+};
 
 /// Whether nothing shows on the six faces of the volume: no opacity, or, where values are shown, x is 0.
 fn vanishes_at_faces(scene: &Scene) -> bool {
@@ -55,6 +57,45 @@ pub fn expected_order(scene: &Scene) -> Option<f64> {
     })
 }
 
+/// Where the normals of a surface come from, and what that does to their error.
+fn gradients(scene: &Scene) -> &'static str {
+    let shading = &scene.settings.shading;
+    match (shading.gradients, shading.texture) {
+        (Gradients::OnTheFly, _) => {
+            "normals are differences over two voxels, and those of the exact picture the gradient of the interpolant: that does not \
+             fall with the step"
+        }
+        (Gradients::Precomputed, GradientTexture::Rgba8) => {
+            "normals are interpolated between gradients at voxels, which are kept in 8 bits, and those of the exact picture are the \
+             gradient of the interpolant: that does not fall with the step"
+        }
+        (Gradients::Precomputed, GradientTexture::Rgba16f | GradientTexture::Rgba32f) => {
+            "normals are interpolated between gradients at voxels, and those of the exact picture are the gradient of the interpolant: \
+             that does not fall with the step"
+        }
+    }
+}
+
+/// What holds for every way of sampling of a scene.
+pub fn remarks_on_all(scene: &Scene) -> Vec<String> {
+    let mut remarks = vec![format!(
+        "Segments of main passes are kept about as long as {} samples of one voxel, so that all steps have about as many passes.",
+        scene.settings.sampling.samples_per_pass
+    )];
+    let surface = match (&scene.surface, scene.polygons.show()) {
+        (None, _) => None,
+        (Some(_), false) => Some(
+            "Places, normals and colours are root mean squares over the pixels in which a ray meets the sheet of the surface that the exact \
+             ray meets, at most a step from there; pixels in which it meets another one, or one of the two rays meets none, are missed.",
+        ),
+        (Some(_), true) => Some(
+            "Places and normals of the surface are not measured, since the colours of polygons would be blended with them.",
+        ),
+    };
+    remarks.extend(surface.map(str::to_owned));
+    remarks
+}
+
 /// The explanations that apply to a scene as a method renders it. `opaque`: the exact picture has opacities above T.
 pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
     let (settings, sampling) = (&scene.settings, &scene.settings.sampling);
@@ -71,10 +112,11 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
              whole colour, and they are fewer the smaller the step is",
         );
         say(
-            true,
-            "normals are differences over two voxels, and those of the exact picture the gradient of the interpolant: that does not \
-             fall with the step",
+            scene.settings.surface.refine == Refine::Linear,
+            "places between two samples are of the second order in the step within a cell, and of the first where a step goes through \
+             a face between cells, which fewer do the shorter they are: root mean squares have the order 1.5",
         );
+        say(true, gradients(scene));
         return remarks;
     }
     let row = projection::of(&scene.settings);

@@ -38,9 +38,14 @@ pub fn fit(points: &[(f64, f64)]) -> Option<Fit> {
 pub fn mark_pareto(curves: &mut [Curve]) {
     let all: Vec<(f64, f64)> = curves.iter().flat_map(|c| &c.points).filter_map(|p| p.time().zip(p.rmse)).collect();
     for point in curves.iter_mut().flat_map(|c| &mut c.points) {
-        let Some((ms, rmse)) = point.time().zip(point.rmse) else { continue };
-        point.pareto = !all.iter().any(|(t, e)| (*t < ms && *e <= rmse) || (*t <= ms && *e < rmse));
+        let Some(own) = point.time().zip(point.rmse) else { continue };
+        point.pareto = !is_beaten(own, &all);
     }
+}
+
+/// Whether any of some times and errors is better than this one, in one of the two at least, and worse in neither.
+pub fn is_beaten((ms, error): (f64, f64), all: &[(f64, f64)]) -> bool {
+    all.iter().any(|(t, e)| (*t < ms && *e <= error) || (*t <= ms && *e < error))
 }
 
 /// The fastest picture whose largest error is at most that.

@@ -1,11 +1,14 @@
 //! Error against run time: pictures of many steps, held against the exact integral, and how fast their error falls.
 
+mod check;
 mod explain;
 mod fit;
 mod page;
 mod plot;
+mod question;
 mod record;
 mod run;
+mod surface;
 mod text;
 mod way;
 
@@ -13,12 +16,14 @@ use super::folder::{KeptResults, Page, Pages};
 use crate::error::Result;
 use crate::provenance::{self, DocumentFormat};
 
-pub use explain::{expected_order, remarks};
+pub use explain::{expected_order, remarks, remarks_on_all};
 pub use fit::{answers, fastest, fit, mark_pareto};
 pub use page::page;
-pub use plot::{Question, questions, step_svgs, time_svgs};
-pub use record::{Accuracy, Curve, FORMAT, Fit, Point};
+pub use plot::{step_svgs, time_svgs};
+pub use question::{About, Question, questions};
+pub use record::{Accuracy, Curve, FORMAT, Fit, Point, SurfaceError, SurfaceOrders};
 pub use run::{AccuracyJob, keep};
+pub use surface::{SurfacePictures, surface_error};
 pub use text::{csv, text};
 
 /// `accuracy.html`, `accuracy.csv`, and the plots as SVG.

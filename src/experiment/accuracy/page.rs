@@ -1,6 +1,6 @@
 //! `accuracy.html`: the answers, the plots, the tables.
 
-use super::text::{order, table};
+use super::text::{order, surface_orders, table};
 use super::{Accuracy, answers, step_svgs, time_svgs};
 use crate::error::Result;
 use crate::report::html::{Html, Intro, Pictures, escape};
@@ -28,7 +28,7 @@ pub fn page(found: &Accuracy, pictures: Pictures) -> Result<String> {
         &time_svgs(found)?,
         "Error against time",
         "Each mark is a picture of one step. Whiskers: least and greatest time. Rings: no other picture is both faster and \
-         nearer to the exact integral (Pareto front).",
+         nearer to what is exact (Pareto front).",
     );
     plots(
         &mut page,
@@ -40,6 +40,7 @@ pub fn page(found: &Accuracy, pictures: Pictures) -> Result<String> {
         page.raw("<section>\n");
         page.tag("h2", &curve.name());
         page.tag("p", &format!("{}.", order(curve)));
+        page.list(&surface_orders(curve));
         page.list(&curve.remarks);
         page.table(&table(curve));
         page.raw("</section>\n");

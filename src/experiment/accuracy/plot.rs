@@ -1,107 +1,71 @@
 //! Error against time and against the step, both logarithmic; a panel for each question, so that every curve can be told
-//! apart.
+//! apart. Of surfaces the errors of places, of normals and of colours have panels of their own.
 
-use super::way::Way;
+use super::fit::is_beaten;
+use super::question::{About, Question, questions};
 use super::{Accuracy, Curve, Point};
 use crate::error::Result;
-use crate::report::plot::DISTINCT;
-use crate::report::plot::curves::{AxisTitles, Panel, PlotPoint, PlotSeries, panels_svg};
+use crate::report::plot::curves::{Panel, PlotPoint, PlotSeries, panels_svg};
 
 /// Panels of one plot; very many curves are several plots.
 const PANELS: usize = 8;
 
-/// Curves that answer one question together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Question {
-    pub title: String,
-    /// Places among the curves, each with its label here.
-    pub curves: Vec<(usize, String)>,
+/// What an error is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Of {
+    Picture,
+    Places,
+    Normals,
+    Colors,
 }
 
-/// What the curves may be held against each other for: the methods, in each way of sampling that several were run in; the
-/// ways of sampling; the formats that voxels and colours are kept in. Every curve stands somewhere, and no question has more
-/// of them than can be told apart.
-pub fn questions(curves: &[Curve]) -> Vec<Question> {
-    let mut asked = Vec::new();
-    for variation in distinct(curves, |curve| &curve.variation) {
-        let title = if variation.is_empty() { "Methods" } else { &format!("Methods, {variation}") };
-        ask(&mut asked, title, curves, |curve| (curve.variation == *variation).then(|| curve.method.clone()));
-    }
-    for method in distinct(curves, |curve| &curve.method) {
-        let shown = |i: usize| asked.iter().any(|question| question.curves.iter().any(|(at, _)| *at == i));
-        let all_shown = (0..curves.len()).filter(|i| curves[*i].method == *method).all(shown);
-        // The first method stands for those that were run in no other ways.
-        if !all_shown || curves[0].method == *method {
-            ways(&mut asked, curves, method);
+impl Of {
+    /// Those that some curves have.
+    fn all(curves: &[Curve]) -> &'static [Self] {
+        match curves.iter().flat_map(|curve| &curve.points).any(|point| point.surface.is_some()) {
+            true => &[Self::Places, Self::Normals, Self::Colors],
+            false => &[Self::Picture],
         }
     }
-    let shown: Vec<usize> = asked.iter().flat_map(|question| question.curves.iter().map(|(i, _)| *i)).collect();
-    let others: Vec<(usize, String)> =
-        (0..curves.len()).filter(|i| !shown.contains(i)).map(|i| (i, curves[i].name())).collect();
-    put(&mut asked, "Others", &others);
-    asked
-}
 
-/// The ways of sampling of one method, and the formats it keeps voxels and colours in.
-fn ways(asked: &mut Vec<Question>, curves: &[Curve], method: &str) {
-    let of = |curve: &Curve| (curve.method == *method).then(|| Way::of(&curve.settings));
-    let name = |curve: &Curve| {
-        if curve.variation.is_empty() { "as the scene is sampled".to_owned() } else { curve.variation.clone() }
-    };
-    let Some(own) = curves.iter().find_map(of) else { return };
-    let formats = |way: Way| (way.accumulate, way.texture);
-    let sampled = |way: Way| Way { accumulate: own.accumulate, texture: own.texture, ..way };
-    ask(asked, &format!("Ways of sampling, {method}"), curves, |curve| {
-        of(curve).filter(|way| formats(*way) == formats(own)).map(|_| name(curve))
-    });
-    let all: Vec<Way> = curves.iter().filter_map(of).collect();
-    let several = |way: Way| all.iter().any(|other| sampled(*other) == sampled(way) && formats(*other) != formats(way));
-    let title = format!("Formats of voxels and colours, {method}");
-    let kept: Vec<(usize, Way)> =
-        curves.iter().enumerate().filter_map(|(i, curve)| Some((i, of(curve).filter(|way| several(*way))?))).collect();
-    let labelled = |these: Vec<usize>| these.into_iter().map(|i| (i, name(&curves[i]))).collect::<Vec<_>>();
-    if kept.len() <= DISTINCT {
-        put(asked, &title, &labelled(kept.iter().map(|(i, _)| *i).collect()));
-        return;
-    }
-    let mut done: Vec<Way> = Vec::new();
-    for (_, way) in &kept {
-        if !done.contains(&sampled(*way)) {
-            done.push(sampled(*way));
-            let these = kept.iter().filter(|(_, other)| sampled(*other) == sampled(*way)).map(|(i, _)| *i);
-            put(asked, &title, &labelled(these.collect()));
+    fn error(self, point: &Point) -> Option<f64> {
+        match self {
+            Self::Picture => point.rmse,
+            Self::Places => point.surface?.position,
+            Self::Normals => point.surface?.normal,
+            Self::Colors => point.surface?.color,
         }
     }
-}
 
-/// Asks a question of the curves that have a label for it, where there are several.
-fn ask(asked: &mut Vec<Question>, title: &str, curves: &[Curve], label: impl Fn(&Curve) -> Option<String>) {
-    let found: Vec<(usize, String)> =
-        curves.iter().enumerate().filter_map(|(i, curve)| Some((i, label(curve)?))).collect();
-    if found.len() > 1 {
-        put(asked, title, &found);
-    }
-}
-
-/// Puts a question, in as many parts as it needs.
-fn put(asked: &mut Vec<Question>, title: &str, curves: &[(usize, String)]) {
-    let parts = curves.chunks(DISTINCT);
-    let several = parts.len() > 1;
-    for (i, part) in parts.enumerate() {
-        let title = if several { format!("{title} ({})", i + 1) } else { title.to_owned() };
-        asked.push(Question { title, curves: part.to_vec() });
-    }
-}
-
-/// The values of a field in the order of their first curves.
-fn distinct<'a>(curves: &'a [Curve], of: impl Fn(&'a Curve) -> &'a String) -> Vec<&'a String> {
-    let mut values: Vec<&String> = Vec::new();
-    for value in curves.iter().map(of) {
-        if !values.contains(&value) {
-            values.push(value);
+    /// What stands along the axis.
+    fn axis(self) -> &'static str {
+        match self {
+            Self::Picture => "root mean squared error",
+            Self::Places => "rms error of places / volume units",
+            Self::Normals => "rms error of normals / radians",
+            Self::Colors => "rms error of colours",
         }
     }
-    values
+
+    /// The title of a question's panel.
+    fn title(self, title: &str) -> String {
+        match self {
+            Self::Picture => title.to_owned(),
+            Self::Places => format!("Places: {title}"),
+            Self::Normals => format!("Normals: {title}"),
+            Self::Colors => format!("Colours: {title}"),
+        }
+    }
+
+    /// Whether the answer to a question shows in it: gradients move no place, and methods, which all meet the same places, show in
+    /// places and colours.
+    fn answers(self, question: &Question) -> bool {
+        match self {
+            Self::Picture | Self::Colors => true,
+            Self::Places => question.about != About::Gradients,
+            Self::Normals => question.about != About::Methods,
+        }
+    }
 }
 
 /// Error against the time of a frame; whiskers from the least to the greatest time, rings around what no other picture
@@ -110,11 +74,16 @@ fn distinct<'a>(curves: &'a [Curve], of: impl Fn(&'a Curve) -> &'a String) -> Ve
 /// # Errors
 /// When the drawing fails, which only a fault of this program explains.
 pub fn time_svgs(found: &Accuracy) -> Result<Vec<String>> {
-    let panels = panels(found, |point| {
-        let [median, least, most, _] = point.ms?;
-        Some(PlotPoint { x: median, y: point.rmse?, range: Some([least, most]), ring: point.pareto })
+    let points = || found.curves.iter().flat_map(|curve| &curve.points);
+    let panels = panels(found, |of| {
+        let all: Vec<(f64, f64)> = points().filter_map(|point| point.time().zip(of.error(point))).collect();
+        move |point: &Point| {
+            let ([median, least, most, _], error) = (point.ms?, of.error(point)?);
+            let ring = !is_beaten((median, error), &all);
+            Some(PlotPoint { x: median, y: error, range: Some([least, most]), ring })
+        }
     });
-    svgs(&panels, AxisTitles { x: "time of a frame / ms", y: "root mean squared error" })
+    svgs(&panels, "time of a frame / ms")
 }
 
 /// Error against the step, with lines of the first and the second order beside. Curves that are the same are one.
@@ -122,31 +91,41 @@ pub fn time_svgs(found: &Accuracy) -> Result<Vec<String>> {
 /// # Errors
 /// As [`time_svgs`].
 pub fn step_svgs(found: &Accuracy) -> Result<Vec<String>> {
-    let mut panels = panels(found, |point| Some(PlotPoint { x: point.step, y: point.rmse?, range: None, ring: false }));
+    let mut panels = panels(found, |of| {
+        move |point: &Point| Some(PlotPoint { x: point.step, y: of.error(point)?, range: None, ring: false })
+    });
     for panel in &mut panels {
         panel.series = merged(std::mem::take(&mut panel.series));
         let orders = orders(&panel.series);
         panel.series.extend(orders);
     }
-    svgs(&panels, AxisTitles { x: "step / voxels", y: "root mean squared error" })
+    svgs(&panels, "step / voxels")
 }
 
-fn svgs(panels: &[Panel], axes: AxisTitles) -> Result<Vec<String>> {
-    panels.chunks(PANELS).map(|panels| panels_svg(panels, axes)).collect()
+fn svgs(panels: &[Panel], x: &'static str) -> Result<Vec<String>> {
+    panels.chunks(PANELS).map(|panels| panels_svg(panels, x)).collect()
 }
 
-/// The questions that any curve has a point for.
-fn panels(found: &Accuracy, of: impl Fn(&Point) -> Option<PlotPoint>) -> Vec<Panel> {
-    let series = |(i, label): (usize, String)| PlotSeries {
-        label,
-        points: found.curves[i].points.iter().filter_map(&of).filter(|p| p.x > 0.0 && p.y > 0.0).collect(),
-        dash: None,
-    };
-    let panel = |question: Question| Panel {
-        title: question.title,
-        series: question.curves.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
-    };
-    questions(&found.curves).into_iter().map(panel).filter(|panel| !panel.series.is_empty()).collect()
+/// The questions that any curve has a point for, of every kind of error: `of` gives the points of one.
+fn panels<P: Fn(&Point) -> Option<PlotPoint>>(found: &Accuracy, of: impl Fn(Of) -> P) -> Vec<Panel> {
+    let questions = questions(&found.curves);
+    let mut panels = Vec::new();
+    for kind in Of::all(&found.curves) {
+        let mark = of(*kind);
+        let series = |(i, label): &(usize, String)| PlotSeries {
+            label: label.clone(),
+            points: found.curves[*i].points.iter().filter_map(&mark).filter(|p| p.x > 0.0 && p.y > 0.0).collect(),
+            dash: None,
+        };
+        let panel = |question: &Question| Panel {
+            title: kind.title(&question.title),
+            y: kind.axis(),
+            series: question.curves.iter().map(series).filter(|series| !series.points.is_empty()).collect(),
+        };
+        let answered = questions.iter().filter(|question| kind.answers(question));
+        panels.extend(answered.map(panel).filter(|panel| !panel.series.is_empty()));
+    }
+    panels
 }
 
 /// Series with the same points as one, under the names of all.

@@ -10,7 +10,8 @@ use crate::scene::Settings;
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;
 
-/// `accuracy.json`. Errors are of premultiplied linear RGBA against the emission-absorption integral in f64.
+/// `accuracy.json`. Errors are of premultiplied linear RGBA against the emission-absorption integral in f64; of iso-surfaces,
+/// against the roots of the interpolant and its gradient there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     #[serde(flatten)]
@@ -46,6 +47,19 @@ pub struct Curve {
     pub expected: Option<f64>,
     /// Why the two may differ.
     pub remarks: Vec<String>,
+    /// The orders of a surface's errors; absent where there is no surface, or where nothing is known of it alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceOrders>,
+}
+
+/// Orders in the step of the errors of [`SurfaceError`]; null where an error does not fall with the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceOrders {
+    pub position: Option<Fit>,
+    pub normal: Option<Fit>,
+    pub color: Option<Fit>,
+    /// The order of places that theory gives; null where nothing but rounding is left of their error.
+    pub expected_position: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,6 +91,25 @@ pub struct Point {
     pub samples: u64,
     /// No other picture is both faster and nearer to the truth.
     pub pareto: bool,
+    /// Of a surface; absent where there is none, or where nothing is known of it alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceError>,
+}
+
+/// How far an iso-surface is from the exact one: root mean squares over the pixels in which both rays meet the same sheet of it, null
+/// where there are none.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceError {
+    /// Distance of the places, volume units.
+    pub position: Option<f64>,
+    /// Angle between the lines that the normals lie on, radians; where the exact surface has a normal.
+    pub normal: Option<f64>,
+    /// Difference of a channel of the colours, premultiplied and linear.
+    pub color: Option<f64>,
+    /// Pixels in which one of the two rays meets the surface alone, or another sheet of it: places are more than a step apart.
+    pub missed: u64,
+    /// Pixels in which one of the two rays meets the surface, or both do.
+    pub pixels: u64,
 }
 
 impl Point {

@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
-use super::way::Way;
-use super::{Accuracy, Curve, FORMAT, Point, expected_order, fit, mark_pareto, remarks};
-use crate::error::{Error, Result};
+use super::check::{check_scene, check_settings};
+use super::surface::{ExactSurface, SurfacePictures, exact, shows_only, surface_error, surface_orders};
+use super::way::{Way, with_step};
+use super::{Accuracy, Curve, FORMAT, Point, SurfaceError, expected_order, fit, mark_pareto, remarks, remarks_on_all};
+use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
 use crate::measure::picture::{Picture, similarity};
@@ -12,17 +14,11 @@ use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Runner, view_in_words};
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Measured, compare};
-use crate::method;
 use crate::projection;
 use crate::provenance::Provenance;
 use crate::read;
 use crate::scene::Scene;
-use crate::scene::settings::{MethodName, MethodSettings, Settings};
-use crate::truth::exact::ExactIntegrator;
-use crate::truth::preintegrated;
-
-/// So many ways of sampling are run by every method.
-const FOR_ALL: usize = 3;
+use crate::scene::settings::{MethodName, MethodSettings, Settings, Shows};
 
 /// What is to be measured.
 pub struct AccuracyJob {
@@ -45,7 +41,9 @@ struct Asked<'a> {
     own: Way,
     /// The exact integral.
     truth: &'a Picture,
-    /// Whether it has opacities above T.
+    /// What is known of the exact surface.
+    surface: Option<&'a ExactSurface>,
+    /// Whether the exact picture has opacities above T.
     opaque: bool,
 }
 
@@ -56,50 +54,27 @@ impl AccuracyJob {
     /// When the scene, a method or a step is refused, or the driver fails.
     pub fn run(&self, host: &Host) -> Result<(Accuracy, Picture)> {
         let settings = &self.settings;
-        if self.methods.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
-            let remedy = "leave it out; every picture is held against the exact integral";
-            return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
-        }
-        for step in &self.steps {
-            let mut stepped = settings.clone();
-            with_step(&mut stepped, settings, *step);
-            stepped.check()?;
-        }
+        check_settings(self)?;
         let scene = read::scene(settings)?;
-        if scene.surface.is_none() && !scene.lights.is_empty() {
-            let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
-            return Err(Error::usage(
-                "light",
-                "shines on samples, of whose colours no exact integral is known",
-                remedy,
-            ));
-        }
+        check_scene(self, &scene)?;
+        let surface = ExactSurface::of(&scene)?;
         let checked = (host.open)()?;
         let provenance = Provenance::now(FORMAT);
         (host.say)("exact integral");
         let truth = exact(&scene)?;
         let opaque = f64::from(truth.pixels.iter().map(|p| p[3]).fold(0.0, f32::max)) > settings.sampling.termination;
-        let own = Way::of(settings);
-        let asked = Asked { checked: &checked, scene: &scene, own, truth: &truth, opaque };
-        let mut ways = match scene.surface {
-            Some(_) => Way::of_surfaces(own),
-            None if self.full => Way::all(own),
-            None => Way::some(own),
-        };
-        // Some scenes cannot be classified by a table; one that asks for it is refused. Values have no opacity.
-        let values = projection::of(settings).shows_values();
-        ways.retain(|way| {
-            let mut scene = scene.clone();
-            way.apply(&mut scene.settings);
-            *way == own || (preintegrated::check(&scene).is_ok() && !(values && way.alpha != own.alpha))
-        });
+        let surface = surface.as_ref();
+        let asked = Asked { checked: &checked, scene: &scene, own: Way::of(settings), truth: &truth, surface, opaque };
+        let (ways, left_out) = self.ways(&asked);
         let mut curves = Vec::new();
         for (i, way) in ways.iter().enumerate() {
-            let methods = if self.full || i < FOR_ALL { &self.methods[..] } else { &self.methods[..1] };
+            let methods = if self.full || i < for_all(&scene) { &self.methods[..] } else { &self.methods[..1] };
             (host.say)(&format!("{} of {} ways of sampling", i + 1, ways.len()));
             curves.extend(self.curves(&asked, *way, methods)?);
         }
         mark_pareto(&mut curves);
+        let mut remarks = remarks_on_all(&scene);
+        remarks.extend(left_out);
         let info = checked.device.info.clone();
         (host.close)(checked)?;
         let found = Accuracy {
@@ -110,54 +85,115 @@ impl AccuracyJob {
             driver: format!("{} {}", info.driver_name, info.driver_info),
             clock: (self.repeats > 0).then(|| Clock::on(info.is_cpu(), info.timestamp_valid_bits > 0)),
             curves,
-            remarks: vec![format!(
-                "Segments of main passes are kept about as long as {} samples of one voxel, so that all steps have about as \
-                 many passes.",
-                settings.sampling.samples_per_pass
-            )],
+            remarks,
             settings: settings.clone(),
             picture: None,
         };
         Ok((found, truth))
     }
 
+    /// The ways of sampling in which the scene can be drawn, its own first; and in words which ones cannot be.
+    fn ways(&self, asked: &Asked) -> (Vec<Way>, Option<String>) {
+        let Asked { scene, own, checked, .. } = *asked;
+        let mut ways = match scene.surface {
+            Some(_) => Way::of_surfaces(own),
+            None if self.full => Way::all(own),
+            None => Way::some(own),
+        };
+        // Values have no opacity.
+        let values = projection::of(&self.settings).shows_values();
+        ways.retain(|way| *way == own || !(values && way.alpha != own.alpha));
+        let shortest = self.steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut left_out = Vec::new();
+        ways.retain(|way| {
+            let mut scene = scene.clone();
+            way.apply(&mut scene.settings);
+            with_step(&mut scene.settings, &self.settings, shortest);
+            let method = MethodSettings { name: self.methods[0], ..scene.settings.method.clone() };
+            // What is wrong with the scene's own way is an error when it is run.
+            let drawn = *way == own || Runner::new(Some(checked), scene, String::new()).check(&[method]).is_ok();
+            left_out.extend((!drawn).then(|| way.words(own)));
+            drawn
+        });
+        let words = (!left_out.is_empty())
+            .then(|| format!("Left out, since the scene cannot be drawn so: {}.", left_out.join("; ")));
+        (ways, words)
+    }
+
     /// One way of sampling by several methods, every step.
     fn curves(&self, asked: &Asked, way: Way, methods: &[MethodName]) -> Result<Vec<Curve>> {
-        let Asked { checked, own, truth, opaque, .. } = *asked;
+        let Asked { checked, truth, .. } = *asked;
         let mut scene = asked.scene.clone();
         way.apply(&mut scene.settings);
         let own_settings = scene.settings.clone();
-        let curve = |name: &MethodName| Curve {
-            method: name.name().to_owned(),
-            variation: way.words(own),
-            settings: Settings {
-                method: MethodSettings { name: *name, ..own_settings.method.clone() },
-                ..own_settings.clone()
-            },
-            points: Vec::new(),
-            order: None,
-            expected: expected_order(&scene),
-            remarks: remarks(&scene, *name, opaque),
-        };
-        let mut curves: Vec<Curve> = methods.iter().map(curve).collect();
+        let mut curves: Vec<Curve> = methods.iter().map(|name| curve(asked, way, &scene, *name)).collect();
         let variants: Vec<MethodSettings> = curves.iter().map(|curve| curve.settings.method.clone()).collect();
-        let mut runner = Runner::new(Some(checked), scene, String::new());
+        let mut runner = Runner::new(Some(checked), scene.clone(), String::new());
         for &step in &self.steps {
             runner.vary(|settings| with_step(settings, &own_settings, step));
             let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
             let sampling = runner.scene().settings.sampling.clone();
             let measured = runner.measure(&variants, effort, &|_| {})?;
             let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
-            for (curve, one) in curves.iter_mut().zip(&measured) {
-                curve.points.push(point(step, sampling.samples_per_pass, one, truth, clock)?);
+            let surfaces = surface_errors(asked, &mut runner, &variants, &measured)?;
+            for ((curve, one), surface) in curves.iter_mut().zip(&measured).zip(surfaces) {
+                curve.points.push(Point { surface, ..point(step, sampling.samples_per_pass, one, truth, clock)? });
             }
         }
         for curve in &mut curves {
             let errors: Vec<(f64, f64)> = curve.points.iter().filter_map(|p| Some((p.step, p.rmse?))).collect();
             curve.order = fit(&errors);
+            curve.surface = surface_orders(&scene, &curve.points);
         }
         Ok(curves)
     }
+}
+
+/// So many ways of sampling are run by every method: of a surface, which all of them find alike, the scene's own.
+fn for_all(scene: &Scene) -> usize {
+    if scene.surface.is_some() { 1 } else { 3 }
+}
+
+/// A curve of a scene that is sampled in some way, without points.
+fn curve(asked: &Asked, way: Way, scene: &Scene, name: MethodName) -> Curve {
+    Curve {
+        method: name.name().to_owned(),
+        variation: way.words(asked.own),
+        settings: Settings {
+            method: MethodSettings { name, ..scene.settings.method.clone() },
+            ..scene.settings.clone()
+        },
+        points: Vec::new(),
+        order: None,
+        expected: expected_order(scene),
+        remarks: remarks(scene, name, asked.opaque),
+        surface: None,
+    }
+}
+
+/// The errors of the surface in what was measured just now; none of a scene of whose surface nothing is known.
+fn surface_errors(
+    asked: &Asked,
+    runner: &mut Runner,
+    variants: &[MethodSettings],
+    measured: &[Measured],
+) -> Result<Vec<Option<SurfaceError>>> {
+    let Some(exact) = asked.surface else { return Ok(vec![None; measured.len()]) };
+    let scene = runner.scene();
+    let (own, step) = (scene.settings.clone(), scene.settings.sampling.step * scene.field.finest());
+    let mut shown = |shows: Shows| {
+        runner.vary(|settings| shows_only(settings, shows));
+        runner.measure(variants, Effort { warmups: 0, repeats: 0, reference: false }, &|_| {})
+    };
+    let (places, normals) = (shown(Shows::Position)?, shown(Shows::Normal)?);
+    runner.vary(|settings| *settings = own);
+    let truth = SurfacePictures { places: &exact.places, normals: &exact.normals, colors: asked.truth };
+    let found = places.iter().zip(&normals).zip(measured).map(|((places, normals), colors)| SurfacePictures {
+        places: &places.picture,
+        normals: &normals.picture,
+        colors: &colors.picture,
+    });
+    Ok(found.map(|found| Some(surface_error(found, truth, step))).collect())
 }
 
 /// Keeps what was found in `folder`, with the exact picture.
@@ -176,22 +212,6 @@ pub fn keep(folder: &Path, mut found: Accuracy, exact: &Picture) -> Result<Accur
     Ok(found)
 }
 
-/// The step, and M so that a pass goes as far as with steps of one voxel.
-fn with_step(settings: &mut Settings, own: &Settings, step: f64) {
-    settings.sampling.step = step;
-    let samples = f64::from(own.sampling.samples_per_pass) / step;
-    // The cast saturates, and the check of the settings refuses what is too much.
-    settings.sampling.samples_per_pass = samples.round().max(1.0) as u32;
-}
-
-/// The exact integral of the scene, without early termination.
-fn exact(scene: &Scene) -> Result<Picture> {
-    let size = scene.settings.image.size;
-    let rays = scene.camera.rays(size)?;
-    let pixels = ExactIntegrator::of(scene).picture(&rays, size);
-    Picture::new(size, pixels.into_iter().map(|pixel| pixel.map(|c| c as f32)).collect())
-}
-
 fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, clock: Clock) -> Result<Point> {
     let error = compare(&one.picture, truth, None)?;
     let finite = |value: f64| value.is_finite().then_some(value);
@@ -207,5 +227,6 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         timed,
         samples: one.run.fragments.main.saturating_mul(samples_per_pass.into()),
         pareto: false,
+        surface: None,
     })
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Accuracy, Curve, Point, answers};
+use super::{Accuracy, Curve, Fit, Point, SurfaceError, answers};
 use crate::error::Result;
 use crate::report::number::{error, milliseconds, thousands};
 use crate::report::table::{Column, Table, TextLayout};
@@ -10,9 +10,30 @@ use crate::report::table::{Column, Table, TextLayout};
 /// The pictures of a curve, a row each.
 pub(super) fn table(curve: &Curve) -> Table {
     let heads = ["step", "largest error", "rmse", "PSNR / dB", "SSIM", "time / ms", "samples"];
-    let mut table = Table::new(heads.map(Column::numbers).to_vec());
-    curve.points.iter().for_each(|point| table.row(cells(point)));
+    let surface = ["places", "normals / rad", "colours", "missed"].map(Column::numbers);
+    let has_surface = has_surface(curve);
+    let mut columns = heads.map(Column::numbers).to_vec();
+    columns.extend(surface.into_iter().filter(|_| has_surface));
+    let mut table = Table::new(columns);
+    for point in &curve.points {
+        let mut row = cells(point).to_vec();
+        row.extend(surface_cells(point.surface.as_ref()).into_iter().filter(|_| has_surface));
+        table.row(row);
+    }
     table
+}
+
+/// Whether anything is known of the surface in a curve's pictures.
+fn has_surface(curve: &Curve) -> bool {
+    curve.points.iter().any(|point| point.surface.is_some())
+}
+
+fn surface_cells(found: Option<&SurfaceError>) -> [String; 4] {
+    let missed = found.map_or("-".to_owned(), |one| format!("{} of {}", thousands(one.missed), thousands(one.pixels)));
+    let errors =
+        [found.and_then(|one| one.position), found.and_then(|one| one.normal), found.and_then(|one| one.color)];
+    let [place, normal, color] = errors.map(error);
+    [place, normal, color, missed]
 }
 
 fn cells(point: &Point) -> [String; 7] {
@@ -32,7 +53,22 @@ fn cells(point: &Point) -> [String; 7] {
 /// `order 1.02 over steps 2 to 0.125 (theory: 1)`.
 pub(super) fn order(curve: &Curve) -> String {
     let theory = curve.expected.map_or("theory gives none".to_owned(), |order| format!("theory: {order}"));
-    match &curve.order {
+    fitted(curve.order.as_ref(), &theory)
+}
+
+/// The orders of a surface's errors, a line each; none where there is no surface.
+pub(super) fn surface_orders(curve: &Curve) -> Vec<String> {
+    let Some(orders) = &curve.surface else { return Vec::new() };
+    let places =
+        orders.expected_position.map_or("theory: rounding alone".to_owned(), |order| format!("theory: {order}"));
+    let none = "theory gives none";
+    [("places", &orders.position, places.as_str()), ("normals", &orders.normal, none), ("colours", &orders.color, none)]
+        .map(|(of, fit, theory)| format!("{of}: {}", fitted(fit.as_ref(), theory)))
+        .to_vec()
+}
+
+fn fitted(fit: Option<&Fit>, theory: &str) -> String {
+    match fit {
         Some(fit) => format!(
             "order {:.2} over steps {} to {} ({theory})",
             fit.order,
@@ -53,6 +89,9 @@ pub fn text(found: &Accuracy) -> String {
     // Writing to a string cannot fail.
     for curve in &found.curves {
         let _ = writeln!(out, "\n{}: {}", curve.name(), order(curve));
+        surface_orders(curve).iter().for_each(|line| {
+            let _ = writeln!(out, "  {line}");
+        });
         out += &table(curve).text(&TextLayout { indent: 2, ..TextLayout::default() });
         curve.remarks.iter().for_each(|remark| {
             let _ = writeln!(out, "  - {remark}");
@@ -65,18 +104,21 @@ pub fn text(found: &Accuracy) -> String {
     out
 }
 
-/// One row a picture; an empty field is a `null` of the JSON.
+/// One row a picture; an empty field is a `null` of the JSON. Of surfaces there are more columns, where any curve has one.
 ///
 /// # Errors
 /// When a row cannot be written, which only a fault of this program explains.
 pub fn csv(found: &Accuracy) -> Result<String> {
     let head = "method,variation,step,samples_per_pass,error_max,error_rmse,error_psnr,ssim,ms,ms_min,ms_max,ms_mad,ms_n,samples,pareto,order,expected_order";
-    let mut table = Table::new(head.split(',').map(Column::words).collect());
+    let of_surface = "position_rmse,normal_rmse,color_rmse,missed,surface_pixels,position_order,normal_order,color_order,expected_position_order";
+    let has_surface = found.curves.iter().any(has_surface);
+    let heads = head.split(',').chain(of_surface.split(',').filter(|_| has_surface));
+    let mut table = Table::new(heads.map(Column::words).collect());
     let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for curve in &found.curves {
         for point in &curve.points {
             let ms = |i: usize| some(point.ms.map(|ms| ms[i]));
-            table.row([
+            let mut row = vec![
                 curve.method.clone(),
                 curve.variation.clone(),
                 point.step.to_string(),
@@ -94,8 +136,28 @@ pub fn csv(found: &Accuracy) -> Result<String> {
                 point.pareto.to_string(),
                 some(curve.order.map(|fit| fit.order)),
                 some(curve.expected),
-            ]);
+            ];
+            row.extend(surface_fields(curve, point).into_iter().filter(|_| has_surface));
+            table.row(row);
         }
     }
     table.csv()
+}
+
+fn surface_fields(curve: &Curve, point: &Point) -> [String; 9] {
+    let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
+    let count = |value: Option<u64>| value.map(|n| n.to_string()).unwrap_or_default();
+    let (found, orders) = (point.surface, curve.surface.unwrap_or_default());
+    let order = |fit: Option<Fit>| some(fit.map(|fit| fit.order));
+    [
+        some(found.and_then(|one| one.position)),
+        some(found.and_then(|one| one.normal)),
+        some(found.and_then(|one| one.color)),
+        count(found.map(|one| one.missed)),
+        count(found.map(|one| one.pixels)),
+        order(orders.position),
+        order(orders.normal),
+        order(orders.color),
+        some(orders.expected_position),
+    ]
 }

@@ -46,6 +46,6 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
         steps.push(dispatch(format!("bundle.{scale}"), shader, &reads, &[("distance_bytes", to)], slice, 64));
         larger = Some(to);
     }
-    steps.push(unpack(resource::NEAREST_DISTANCE));
+    steps.push(unpack(resource::DISTANCE_BYTES, resource::NEAREST_DISTANCE));
     steps
 }

@@ -29,7 +29,7 @@ pub fn omni(grid: &Grid, to: Resource) -> Vec<Step> {
             slice(grid, words_of_bytes(grid.cells)),
             4,
         ),
-        unpack(to),
+        unpack(resource::DISTANCE_BYTES, to),
     ]
 }
 
@@ -48,7 +48,7 @@ pub fn directional(grid: &Grid) -> Vec<Step> {
             }
         }
     }
-    steps.push(unpack(resource::NEAREST_DISTANCE));
+    steps.push(unpack(resource::DISTANCE_BYTES, resource::NEAREST_DISTANCE));
     steps
 }
 

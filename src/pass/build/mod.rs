@@ -1,15 +1,17 @@
-//! Compute steps that build structures: which cells are interesting, and how far it is to the nearest of them.
+//! Compute steps that build structures: which cells are interesting, how far it is to the nearest of them, and gradients.
 //!
 //! They are run before frames, once for what they depend on: the volume, the transfer function, the view. Each step is
 //! cut into slices, so that a large volume takes many short dispatches. [`RECIPES`] says which steps make what.
 
 mod bundle;
 mod distance;
+mod gradients;
 mod interesting;
 mod range;
 
 use bundle::{bundle, widen_2, widen_4};
 use distance::{directional, omni};
+use gradients::gradients;
 use interesting::interesting;
 use range::cell_range;
 
@@ -21,6 +23,7 @@ use crate::part::resource::{Facts, Resource};
 use crate::part::{Dispatch, Group, Step, Work};
 use crate::resource;
 use crate::resource::texels::Texels;
+use crate::scene::gradients::GradientCoding;
 use crate::scene::settings::Distance;
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
@@ -36,7 +39,7 @@ pub struct Recipe {
 }
 
 /// Every recipe.
-pub static RECIPES: [Recipe; 6] = [
+pub static RECIPES: [Recipe; 7] = [
     Recipe {
         makes: resource::CELL_RANGE,
         steps: |facts, side| vec![cell_range(&Grid::new(&facts.scene.field, side.into()))],
@@ -70,6 +73,15 @@ pub static RECIPES: [Recipe; 6] = [
             let shown = texels.shown(facts.scene);
             let build = |lookup| structure::build(&facts.scene.field, &texels.values, &shown, &lookup).bytes;
             facts.lookup.map(build).unwrap_or_default()
+        }),
+    },
+    Recipe {
+        makes: resource::GRADIENTS,
+        steps: |facts, _| gradients(facts.scene),
+        host: Some(|facts| {
+            let (scene, texels) = (facts.scene, Texels::of(facts.scene));
+            let operator = scene.settings.shading.gradient;
+            structure::gradients::texels(&scene.field, &texels.values, operator, &GradientCoding::of(scene))
         }),
     },
 ];
@@ -116,9 +128,9 @@ fn dispatch(
     Step::new(name, Group::Structure, 0, accesses, work)
 }
 
-/// Distances as packed, to the texture `to`.
-fn unpack(to: Resource) -> Step {
-    let accesses = vec![Usage::CopySource.of(resource::DISTANCE_BYTES), Usage::CopyTarget.of(to)];
-    let work = Work::Unpack { from: resource::DISTANCE_BYTES, to };
+/// Texels that were made in the buffer `from`, to the texture `to`.
+fn unpack(from: Resource, to: Resource) -> Step {
+    let accesses = vec![Usage::CopySource.of(from), Usage::CopyTarget.of(to)];
+    let work = Work::Unpack { from, to };
     Step::new(to.name().to_owned(), Group::Structure, 0, accesses, work)
 }

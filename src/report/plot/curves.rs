@@ -1,5 +1,5 @@
-//! Curves over two logarithmic axes, in panels below each other that share their axes: a panel for each question, with no
-//! more curves than can be told apart by colour and mark.
+//! Curves over two logarithmic axes, in panels below each other that share the axis along the bottom, and the other one where they
+//! show the same: a panel for each question, with no more curves than can be told apart by colour and mark.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -42,37 +42,38 @@ pub struct PlotSeries {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     pub title: String,
-    pub series: Vec<PlotSeries>,
-}
-
-/// What stands along the axes.
-#[derive(Clone, Copy, Debug)]
-pub struct AxisTitles {
-    pub x: &'static str,
+    /// What stands along the axis on the left. Panels with the same have the same range.
     pub y: &'static str,
+    pub series: Vec<PlotSeries>,
 }
 
 /// Along one axis: the decades shown, and where ticks stand.
 type Decades = (std::ops::Range<f64>, Vec<f64>);
 
+/// `x`: what stands along the axis at the bottom of every panel.
+///
 /// # Errors
 /// When the drawing fails, which only a fault of this program explains.
-pub fn panels_svg(panels: &[Panel], axes: AxisTitles) -> Result<String> {
-    let all = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
-    let x = decades(all().flat_map(|p| [p.x].into_iter().chain(p.range.into_iter().flatten())));
-    let y = decades(all().map(|p| p.y));
+pub fn panels_svg(panels: &[Panel], x: &'static str) -> Result<String> {
+    let all = panels.iter().flat_map(marks);
+    let along_x = decades(all.flat_map(|p| [p.x].into_iter().chain(p.range.into_iter().flatten())));
     let heights: Vec<u32> = panels.iter().map(height).collect();
     svg(heights.iter().sum(), |area| {
         let mut rest = area.clone();
         for (panel, height) in panels.iter().zip(&heights) {
             let (upper, lower) = rest.split_vertically(*height);
             let (plot, key) = upper.split_horizontally(WIDTH - LEGEND_WIDTH);
-            draw(&plot, panel, [&x, &y], axes)?;
+            let alike = panels.iter().filter(|other| other.y == panel.y).flat_map(marks);
+            draw(&plot, panel, x, [&along_x, &decades(alike.map(|p| p.y))])?;
             legend(&key, &panel.series)?;
             rest = lower;
         }
         Ok(())
     })
+}
+
+fn marks(panel: &Panel) -> impl Iterator<Item = &PlotPoint> {
+    panel.series.iter().flat_map(|series| &series.points)
 }
 
 fn height(panel: &Panel) -> u32 {
@@ -96,7 +97,7 @@ fn number(log: f64) -> String {
     if (0.01..10_000.0).contains(&value) { format!("{}", (value * 1e4).round() / 1e4) } else { format!("1e{log:.0}") }
 }
 
-fn draw<'a>(area: &Area<'a>, panel: &Panel, [x, y]: [&Decades; 2], axes: AxisTitles) -> Drawn<'a> {
+fn draw<'a>(area: &Area<'a>, panel: &Panel, x_title: &str, [x, y]: [&Decades; 2]) -> Drawn<'a> {
     let ticks = |(range, at): &Decades| Ticks { range: range.clone(), at: at.clone() };
     area.draw(&Text::new(panel.title.clone(), (76, 14), ink_at(FONT_SIZE + 3, HPos::Left, VPos::Top)))?;
     let mut chart = ChartBuilder::on(area)
@@ -113,8 +114,8 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel, [x, y]: [&Decades; 2], axes: AxisTit
         .label_style(ink(FONT_SIZE))
         .x_label_formatter(&|log| number(*log))
         .y_label_formatter(&|log| number(*log))
-        .x_desc(axes.x)
-        .y_desc(axes.y)
+        .x_desc(x_title)
+        .y_desc(panel.y)
         .axis_desc_style(ink(FONT_SIZE))
         .draw()?;
     let logs = |x: f64, y: f64| (x.log10(), y.log10());

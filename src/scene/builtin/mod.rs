@@ -63,7 +63,7 @@ impl Builtin {
 
 /// Every built-in volume. Those in u8 are exactly 0 in more than 60 % of their cells from 64^3 on, and on all six faces; the
 /// others (f32) reach the faces.
-pub const ALL: [Builtin; 9] = [
+pub const ALL: [Builtin; 10] = [
     Builtin {
         name: "marschner-lobb",
         about: "the Marschner-Lobb test signal; f32, reaches the faces",
@@ -127,6 +127,13 @@ pub const ALL: [Builtin; 9] = [
         value: signals::gaussian,
         gradient: |p| -p / signals::GAUSSIAN_SIGMA.powi(2) * signals::gaussian(p),
     },
+    Builtin {
+        name: "torus",
+        about: "a Gaussian about a ring in the plane y = 0; f32, nearly 0 at the faces",
+        stored: BuiltinVoxels::F32,
+        value: signals::torus,
+        gradient: signals::torus_gradient,
+    },
 ];
 
 /// The built-in volume of that name.
@@ -134,7 +141,7 @@ pub const ALL: [Builtin; 9] = [
 /// # Errors
 /// When there is none; the nearest name is given.
 pub fn find(name: &str) -> Result<&'static Builtin> {
-    static TABLE: [Builtin; 9] = ALL;
+    static TABLE: [Builtin; 10] = ALL;
     TABLE.iter().find(|b| b.name == name).ok_or_else(|| {
         let names = TABLE.iter().map(|b| b.name);
         let near = nearest(name, names.clone()).map_or(String::new(), |n| format!("did you mean `{n}`? "));

@@ -1,4 +1,4 @@
-//! Signals and thin structures: a Gaussian, the signal of Marschner and Lobb, shells, jets.
+//! Signals and thin structures: a Gaussian, a torus, the signal of Marschner and Lobb, shells, jets.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -11,6 +11,27 @@ pub const GAUSSIAN_SIGMA: f64 = 0.3;
 
 pub fn gaussian(p: DVec3) -> f64 {
     (-0.5 * p.length_squared() / GAUSSIAN_SIGMA.powi(2)).exp()
+}
+
+/// Radius of the ring in the plane y = 0 about which the torus lies, and the standard deviation of its value from there.
+const RING_RADIUS: f64 = 0.55;
+const RING_SIGMA: f64 = 0.14;
+
+/// The way to a point from the nearest one of the ring. On the axis, where all of the ring is as near, it has no direction across.
+fn from_ring(p: DVec3) -> DVec3 {
+    let across = DVec3::new(p.x, 0.0, p.z);
+    let outward = across.try_normalize().unwrap_or(DVec3::ZERO);
+    (across.length() - RING_RADIUS) * outward + DVec3::new(0.0, p.y, 0.0)
+}
+
+/// Its iso-surfaces are tori, of a radius sigma sqrt(-2 ln v) for the value v.
+pub fn torus(p: DVec3) -> f64 {
+    let across = DVec2::new(p.x, p.z).length() - RING_RADIUS;
+    (-0.5 * (across * across + p.y * p.y) / RING_SIGMA.powi(2)).exp()
+}
+
+pub fn torus_gradient(p: DVec3) -> DVec3 {
+    -from_ring(p) / RING_SIGMA.powi(2) * torus(p)
 }
 
 /// Frequency f_M and amplitude alpha of the signal's ripple, as Marschner and Lobb (An Evaluation of

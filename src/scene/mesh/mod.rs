@@ -5,6 +5,7 @@ mod crossings;
 mod cuts;
 mod polygons;
 mod shapes;
+mod snapshot;
 
 pub use clip::{ClipMesh, Keep, MOST_CLIPS, Windings};
 pub use crossings::{Crossing, Crossings};

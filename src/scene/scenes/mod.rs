@@ -71,8 +71,16 @@ const HEAD_BEHIND: SceneOnData = SceneOnData {
     text: include_str!("head-behind-on-data.toml"),
 };
 
+/// A head in two lights.
+const TWO_LIGHTS: SceneOnData = SceneOnData {
+    name: "two-lights-on-data",
+    about: "a head lit by a red light at the upper left and a blue one at the lower right",
+    file: "mri_head.nrrd",
+    text: include_str!("two-lights-on-data.toml"),
+};
+
 /// Every built-in scene.
-pub const ALL: [BuiltinScene; 2] = [
+pub const ALL: [BuiltinScene; 4] = [
     BuiltinScene {
         name: "engine-geometry",
         about: "an engine-like block with a transparent green sphere in it and an arrow through that",
@@ -86,6 +94,20 @@ pub const ALL: [BuiltinScene; 2] = [
         source: "Thesis ch. 6, Figure 4",
         text: include_str!("head-clipped.toml"),
         on_data: &[HEAD, HEAD_BEHIND],
+    },
+    BuiltinScene {
+        name: "two-lights",
+        about: "a head-like shell lit by a red light at the upper left and a blue one at the lower right",
+        source: "Thesis ch. 7, Figure 8",
+        text: include_str!("two-lights.toml"),
+        on_data: &[TWO_LIGHTS],
+    },
+    BuiltinScene {
+        name: "reflecting-torus",
+        about: "a torus that reflects the six spheres around it",
+        source: "Thesis ch. 4, Figure 5",
+        text: include_str!("reflecting-torus.toml"),
+        on_data: &[],
     },
 ];
 

@@ -91,13 +91,13 @@ impl LightSettings {
         if key == "direction" && place == [0.0; 3] {
             return refuse(key, "has the length 0".to_owned(), "give the direction that the light comes from");
         }
-        if !self.color.iter().all(|c| (0.0..=LARGEST).contains(c)) {
-            return refuse("color", format!("is {:?}", self.color), "give three finite numbers, none below 0");
+        if !self.color.iter().all(|c| (0.0..=LARGEST_PART).contains(c)) {
+            return refuse("color", format!("is {:?}", self.color), &format!("give three numbers from 0 to {LARGEST_PART}"));
         }
         let parts = [("ambient", self.ambient), ("diffuse", self.diffuse), ("specular", self.specular)];
         for (key, part) in parts {
-            if !(0.0..=LARGEST).contains(&part) {
-                return refuse(key, format!("is {part}"), "give a finite number that is not below 0");
+            if !(0.0..=LARGEST_PART).contains(&part) {
+                return refuse(key, format!("is {part}"), &format!("give a number from 0 to {LARGEST_PART}"));
             }
         }
         if !(0.0..=LARGEST_SHININESS).contains(&self.shininess) {
@@ -108,7 +108,10 @@ impl LightSettings {
     }
 }
 
-/// Places and colours beyond this have no squares in single precision.
+/// The largest colour and the largest part of a light: products of two are those of the brightest surfaces.
+const LARGEST_PART: f64 = 1e3;
+
+/// Places beyond this have no squares in single precision.
 const LARGEST: f64 = 1e15;
 
 /// A vector of length 1, however short or long it was.

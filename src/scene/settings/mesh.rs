@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::placed::{Placed, placed_mesh};
 use crate::error::Result;
 use crate::scene::fixed;
+use crate::scene::limits::BRIGHTEST;
 use crate::scene::mesh::Material;
 
 placed_mesh! {
@@ -38,8 +39,8 @@ impl MeshSettings {
             return Err(placed.refusal("opacity", format!("is {}", self.opacity), "give a number from 0 to 1"));
         }
         for (key, color) in [("color", Some(self.color)), ("back", self.back)] {
-            if let Some(color) = color.filter(|color| !color.iter().all(|c| (0.0..=f64::MAX).contains(c))) {
-                return Err(placed.refusal(key, format!("is {color:?}"), "give three finite numbers, none below 0"));
+            if let Some(color) = color.filter(|color| !color.iter().all(|c| (0.0..=BRIGHTEST).contains(c))) {
+                return Err(placed.refusal(key, format!("is {color:?}"), &format!("give three numbers from 0 to {BRIGHTEST}")));
             }
         }
         Ok(())

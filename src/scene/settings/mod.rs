@@ -12,6 +12,7 @@
 
 mod camera;
 mod clip;
+mod environment;
 mod image;
 mod key;
 mod layers;
@@ -23,6 +24,7 @@ mod placed;
 mod projection;
 mod sampling;
 mod section;
+mod shading;
 mod surface;
 mod transfer;
 mod volume;
@@ -38,6 +40,7 @@ pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
 pub use clip::{ClipOptions, ClipSettings};
+pub use environment::{ENVIRONMENTS, Mapping};
 pub use image::Accumulate;
 pub use key::Key;
 pub use layers::PartialSegments;
@@ -45,8 +48,9 @@ pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
 pub use placed::Placed;
+pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
-pub use surface::{Find, MOST_SURFACES, Refine, SurfaceLevel};
+pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 
 /// Joins the sections.
@@ -134,7 +138,11 @@ impl Settings {
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
         let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
-        [&mut self.volume.path, &mut self.transfer.file].into_iter().chain(meshes).chain(clips).flatten()
+        [&mut self.volume.path, &mut self.transfer.file, &mut self.environment.image]
+            .into_iter()
+            .chain(meshes)
+            .chain(clips)
+            .flatten()
     }
 
     pub fn formats(&self) -> Formats {
@@ -148,6 +156,8 @@ sections! {
     camera: CameraSettings, CameraOptions;
     layers: LayersSettings, LayersOptions;
     surface: SurfaceSettings, SurfaceOptions;
+    shading: ShadingSettings, ShadingOptions;
+    environment: EnvironmentSettings, EnvironmentOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;

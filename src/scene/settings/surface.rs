@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::section::section;
 use crate::scene::fixed;
-use crate::scene::limits::{Allowed, Limits, WrongValue};
+use crate::scene::limits::{Allowed, BRIGHTEST, Limits, WrongValue};
 
 /// Iso values.
 const VALUES: Limits = Limits::new(Allowed::Finite, "a finite number");
@@ -43,9 +43,18 @@ section! {
     /// How the place of a surface is found between two samples
     #[arg(long, value_name = "HOW")]
     refine: Refine = Refine::Linear;
+
+    /// What a pixel shows of the surface that its ray meets: its colour in all lights, its place or its normal as numbers
+    #[arg(long = "surface-shows", value_name = "WHAT")]
+    shows: Shows = Shows::Color;
 }
 
 impl SurfaceSettings {
+    /// Whether there are any.
+    pub fn is_asked(&self) -> bool {
+        self.iso.is_some() || !self.levels.is_empty()
+    }
+
     /// The surfaces that are asked for.
     pub fn asked(&self) -> Vec<SurfaceLevel> {
         let one = self.iso.map(|iso| SurfaceLevel { iso, ..SurfaceLevel::default() });
@@ -88,8 +97,8 @@ fn sound(levels: &[SurfaceLevel]) -> Option<WrongValue> {
         _ if !(0.0..=1.0).contains(&level.opacity) => {
             wrong(format!("has the opacity {}", level.opacity), "give an opacity from 0 to 1")
         }
-        SurfaceLevel { color: Some(color), .. } if !color.iter().all(|c| (0.0..=f64::MAX).contains(c)) => {
-            wrong(format!("has the color {color:?}"), "give three finite numbers, none below 0")
+        SurfaceLevel { color: Some(color), .. } if !color.iter().all(|c| (0.0..=BRIGHTEST).contains(c)) => {
+            wrong(format!("has the color {color:?}"), &format!("give three numbers from 0 to {BRIGHTEST}"))
         }
         _ => None,
     })
@@ -117,4 +126,17 @@ pub enum Refine {
     Linear,
     /// The root of the interpolant along the ray, a cubic in every cell.
     Exact,
+}
+
+/// What a pixel shows of the surface that its ray meets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Shows {
+    /// Its colour in all lights.
+    #[default]
+    Color,
+    /// The place at which the ray meets it: x, y and z in volume space, opacity 1.
+    Position,
+    /// Its normal of length 1, turned to the eye: x, y and z in volume space, opacity 1; 0 where there is no gradient.
+    Normal,
 }

@@ -11,9 +11,14 @@ use crate::harness::{Test, test};
 /// How far a measured order may be from theory's.
 const ORDER: f64 = 0.15;
 
+/// How far an order of places may be from theory's, which holds for steps of much less than a voxel.
+const SURFACE_ORDER: f64 = 0.35;
+
 pub fn tests() -> Vec<Test> {
     vec![
         test("accuracy finds the orders of theory", orders),
+        test("accuracy measures places, normals and colours of surfaces", surfaces),
+        test("accuracy leaves out what cannot be drawn of a surface", nearest),
         test("accuracy measures what is asked for", asked_for),
         test("accuracy refuses what it cannot measure", refused),
     ]
@@ -78,8 +83,53 @@ fn asked_for(_: &Arc<Device>) {
     }
 }
 
+fn surfaces(_: &Arc<Device>) {
+    let place = Place::new();
+    let view = "--viewport 40x40 --azimuth 30 --elevation 20 --fov 15";
+    let options = "--iso 0.4 --filter exact --steps 2,1,0.5 --repeats 0 --method rc-ert";
+    place.done(&format!("accuracy builtin:gaussian:48 {view} {options} --validate -o out"));
+    let found = read(&place);
+    for (name, theory) in [("rc-ert, not refined", Some(1.0)), ("rc-ert", Some(1.5)), ("rc-ert, refined exact", None)] {
+        let curve = curve(&found, name);
+        let orders = curve.surface.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", curve.points));
+        println!("{name}: {orders:?} of {:?}", curve.points);
+        assert_eq!(orders.expected_position, theory, "{name}");
+        if let Some(theory) = theory {
+            let order = orders.position.unwrap_or_else(|| panic!("{name}: {:?}", curve.points)).order;
+            assert!((order - theory).abs() < SURFACE_ORDER, "{name} has the order {order}");
+        }
+        for point in &curve.points {
+            let error = point.surface.unwrap();
+            assert!(error.pixels > 100 && 20 * error.missed < error.pixels, "{name}: {error:?}");
+            assert!(theory.is_some() || error.position.unwrap() < 2e-5, "{name}: {error:?}");
+        }
+    }
+    // Every kind of texture, at the same places.
+    let normals = |name: &str| curve(&found, name).points.last().unwrap().surface.unwrap().normal.unwrap();
+    for operator in ["central", "sobel"] {
+        let [coarse, half, single] = ["rgba8", "rgba16f", "rgba32f"]
+            .map(|texture| normals(&format!("rc-ert, refined exact, {operator} {texture}")));
+        assert!(coarse > 0.9 * half && (half - single).abs() < 0.1 * single, "{operator}: {coarse} {half} {single}");
+    }
+}
+
+fn nearest(_: &Arc<Device>) {
+    let place = Place::new();
+    let options =
+        "--iso 0.4 --filter nearest --refine none --viewport 24x20 --fov 20 --steps 1,0.5 --repeats 0 --method rc";
+    place.done(&format!("accuracy builtin:gaussian:24 {options} -o out"));
+    let found = read(&place);
+    assert!(found.curves.len() > 3, "{}", found.curves.len());
+    assert!(found.remarks.iter().any(|remark| remark.contains("Left out") && remark.contains("refined linear")));
+    let numbers = found.curves.iter().flat_map(|curve| &curve.points).filter_map(|point| point.surface?.position);
+    assert!(numbers.clone().count() > 3 && numbers.clone().all(f64::is_finite), "{:?}", numbers.collect::<Vec<_>>());
+}
+
 fn refused(_: &Arc<Device>) {
     let place = Place::new();
+    place.refused("accuracy builtin:gaussian:16 --iso 2 -o out", 2, &["surface (--iso)", "met by no ray"]);
+    place.refused("accuracy builtin:gaussian:16 --iso 0.4 --filter nearest -o out", 2, &["--refine none"]);
+    place.refused("accuracy builtin:gaussian:16 --iso 0.4 --surface-shows normal -o out", 2, &["--surface-shows"]);
     place.refused("accuracy builtin:shells:16 --method cpu -o out", 2, &["--method cpu", "no frame time"]);
     place.refused("accuracy builtin:shells:16 --steps 1,0 -o out", 2, &["--step"]);
     place.refused("accuracy builtin:shells:16 --steps 1,nan -o out", 2, &["--step"]);

@@ -10,7 +10,7 @@ use depthleap::vulkan::Device;
 
 use super::program::Place;
 use crate::frame::scenes::shapes;
-use crate::harness::{Test, some_forms, test};
+use crate::harness::{Test, least, some_forms, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
@@ -24,9 +24,14 @@ fn read(place: &Place) -> Stability {
     serde_json::from_slice(&place.read("out/stability.json")).unwrap()
 }
 
-/// All methods; where another driver draws by all of them, the first of those that differ in no more than their distances.
+/// All methods; where another driver draws by all of them, the first of those that differ in no more than their distances; where
+/// others do all that, one that decides in its main passes, and one that skips nothing.
 fn methods() -> Vec<MethodName> {
     match some_forms() {
+        _ if least() => {
+            let few = |method: &&Method| method.ends_rays && (method.fused || !method.looks_ahead());
+            shapes().into_iter().filter(few).map(Method::name).collect()
+        }
         true => shapes().into_iter().map(Method::name).chain([CPU.name()]).collect(),
         false => METHODS.map(Method::name).to_vec(),
     }

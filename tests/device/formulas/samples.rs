@@ -112,6 +112,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         distance: None,
         blocks: None,
         table: None,
+        gradients: None,
         projection: projection::of(&scene.settings),
         fused: false,
         levels: Levels::default(),

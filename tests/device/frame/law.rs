@@ -8,7 +8,10 @@ use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Accumulate, Classification, Last, MethodName, Offset, Settings};
+use depthleap::scene::settings::{
+    Accumulate, Classification, ClipSettings, Find, GradientTexture, Gradients, Last, LightSettings, MeshSettings, MethodName, Offset,
+    Refine, Settings, VolumeTexture,
+};
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
@@ -26,7 +29,7 @@ const TURNS: [(&str, Change); 4] = [
 ];
 
 /// Volume, transfer function and what else is set.
-const BUILT_IN: [(&str, &str, Change); 13] = [
+const BUILT_IN: [(&str, &str, Change); 18] = [
     ("shells:48", "ramp", |_| {}),
     // A jump of opacity, walls on block seams.
     ("blocks:64", "surface", |_| {}),
@@ -62,9 +65,43 @@ const BUILT_IN: [(&str, &str, Change); 13] = [
         (s.image.accumulate, s.sampling.termination) = (Accumulate::Rgba8, 0.075);
         (s.sampling.samples_per_pass, s.sampling.passes) = (8, 2);
     }),
+    // Surfaces as the texture unit interpolates them: on block seams, a sample a pass, colours of few bits.
+    ("blocks:56", "surface", |s| s.surface.iso = Some(100.0)),
+    ("jets:24x22x20", "ramp", |s| {
+        (s.surface.iso, s.surface.find, s.surface.iso_width) = (Some(70.0), Find::Range, Some(20.0));
+        (s.sampling.samples_per_pass, s.image.accumulate) = (1, Accumulate::Rgba8);
+    }),
+    ("shells:44", "ramp", all_at_once),
+    // Light on samples, with values that 8 bits move across a jump.
+    ("blocks:44", "surface", |s| {
+        s.lights = vec![light()];
+        s.shading.gradients = Gradients::Precomputed;
+        (s.shading.texture, s.volume.texture) = (GradientTexture::Rgba8, VolumeTexture::R32f);
+    }),
+    ("jets:36", "ramp", |s| (s.lights, s.image.accumulate) = (vec![light()], Accumulate::Rgba16f)),
 ];
 
-const REAL: [(&str, &str, Change); 6] = [
+/// A surface in light, clip planes, and two meshes that cut each other.
+fn all_at_once(settings: &mut Settings) {
+    (settings.surface.iso, settings.surface.refine, settings.lights) = (Some(90.0), Refine::Exact, vec![light()]);
+    settings.clips = [[1.0, 0.2, 0.1, 0.2], [-0.3, 0.9, -0.2, 0.3]]
+        .map(|plane| ClipSettings { plane: Some(plane), ..ClipSettings::default() })
+        .to_vec();
+    let mesh = |opacity: f64, scale: f64| MeshSettings {
+        builtin: Some("sphere".to_owned()),
+        opacity,
+        scale,
+        ..MeshSettings::default()
+    };
+    (settings.meshes, settings.layers.most) = (vec![mesh(0.4, 0.7), mesh(1.0, 0.3)], 2);
+    settings.meshes[1].translate = [0.2, 0.1, 0.0];
+}
+
+fn light() -> LightSettings {
+    LightSettings { direction: Some([-1.0, 1.0, 1.0]), color: [1.0, 0.7, 0.4], ..LightSettings::default() }
+}
+
+const REAL: [(&str, &str, Change); 8] = [
     ("fuel.nrrd", "ramp", |_| {}),
     ("nucleon.nrrd", "surface", |_| {}),
     ("engine_256cube.nrrd", "ramp", |s| s.sampling.samples_per_pass = 8),
@@ -72,6 +109,14 @@ const REAL: [(&str, &str, Change); 6] = [
     ("mri_head.nrrd", "ramp", |s| s.sampling.samples_per_pass = 8),
     // Spacings differ from axis to axis.
     ("ct_vismale.nrrd", "surface", |s| s.sampling.samples_per_pass = 8),
+    ("ct_head.nrrd", "linear", |s| {
+        all_at_once(s);
+        s.sampling.samples_per_pass = 8;
+    }),
+    ("foot_cadaver.nrrd", "surface", |s| {
+        (s.lights, s.sampling.samples_per_pass) = (vec![light()], 8);
+        s.shading.gradients = Gradients::Precomputed;
+    }),
 ];
 
 pub fn tests() -> Vec<Test> {

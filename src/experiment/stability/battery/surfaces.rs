@@ -2,7 +2,9 @@
 
 use super::super::case::{Expect, ROUNDING, SAME_SUM, StabilityCase};
 use crate::scene::Volume;
-use crate::scene::settings::{Find, LightSettings, Refine, Settings};
+use crate::scene::settings::{
+    Find, GradientOperator, GradientTexture, Gradients, LightSettings, Refine, Settings, ShadingSettings,
+};
 use crate::scene::volume::Voxels;
 
 const SURFACES: &str = "surfaces and lights";
@@ -32,6 +34,21 @@ fn of_voxels(name: &str, iso: f64, value: impl Fn(usize) -> u8) -> Option<Stabil
     Some(surface(name, "constant:2", iso).voxels(along_x(name, value)?))
 }
 
+fn precomputed(gradient: GradientOperator, texture: GradientTexture) -> ShadingSettings {
+    ShadingSettings { gradients: Gradients::Precomputed, gradient, texture }
+}
+
+/// A value that grows to 1e38 with its place in a list of 12^3.
+fn huge(i: usize) -> f32 {
+    1e38 * (i % 12) as f32 / 11.0
+}
+
+/// A surface that shows nothing but what it reflects.
+fn mirror(name: &str, builtin: &str, iso: f64) -> StabilityCase {
+    surface(name, builtin, iso)
+        .with(|s| (s.environment.builtin, s.environment.reflectivity) = (Some("sky".to_owned()), 1.0))
+}
+
 pub fn cases() -> Vec<StabilityCase> {
     let from_low = |s: &mut Settings| s.camera.eye = [-1.5, 0.4, 0.6];
     let volumes = [
@@ -41,8 +58,16 @@ pub fn cases() -> Vec<StabilityCase> {
             .map(|case| case.with(|s| s.sampling.step = 3.7)),
         of_voxels("a range that no voxel is in", 100.0, |x| if x < 6 { 0 } else { 255 })
             .map(|case| case.with(|s| (s.surface.find, s.surface.iso_width) = (Find::Range, Some(4.0)))),
-        of_voxels("a value a hair above all there are", 200.000_01, |x| if x == 5 { 200 } else { 0 })
-            .map(|case| case.expect(Expect::Sum, SAME_SUM)),
+        // Within what rounding may move a value, and beyond.
+        of_voxels("a value a hair above all there are", 200.000_01, |x| if x == 5 { 200 } else { 0 }),
+        of_voxels("a value above all there are", 200.01, |x| if x == 5 { 200 } else { 0 }),
+        of_voxels("gradients in 8 bits of a plateau", 120.0, |x| if x < 6 { 20 } else { 120 })
+            .map(|case| case.with(|s| s.shading = precomputed(GradientOperator::Sobel, GradientTexture::Rgba8))),
+        Volume::new("values to 1e38", [12; 3], [1.0; 3], Voxels::F32((0..12 * 12 * 12).map(huge).collect())).ok().map(|volume| {
+            surface("gradients of values to 1e38", "constant:2", 2e37).voxels(volume).with(|s| {
+                s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba16f);
+            })
+        }),
     ];
     let mut cases = vec![
         surface("the value of a voxel", "linear:25", 0.5).with(from_low),
@@ -58,6 +83,12 @@ pub fn cases() -> Vec<StabilityCase> {
         surface("refined evenly", "marschner-lobb:40", 0.5).with(|s| s.surface.refine = Refine::Linear),
         surface("steps of half a volume", "gaussian:24", 0.1).with(|s| s.sampling.step = 12.0),
         surface("steps of a hundredth of a voxel", "gaussian:12", 0.1).with(|s| s.sampling.step = 0.01),
+        mirror("a mirror of the sky", "gaussian:40", 0.2),
+        mirror("a mirror of the sky in ripples", "marschner-lobb:40", 0.5),
+        mirror("a mirror without a normal, which reflects nothing", "constant:8", 0.4),
+        mirror("a mirror of which the part 1.5 is to be reflected", "gaussian:12", 0.2)
+            .with(|s| s.environment.reflectivity = 1.5)
+            .expect(Expect::Refused("environment.reflectivity"), ROUNDING),
         lit("a light behind", |light| light.direction = Some([-1.0, -1.0, -2.0])),
         lit("a light on the surface", |light| (light.direction, light.position) = (None, Some([0.0, 0.0, 0.236]))),
         lit("a light in the eye", |light| {
@@ -77,6 +108,10 @@ pub fn cases() -> Vec<StabilityCase> {
         StabilityCase::new(SURFACES, "samples of ripples", "marschner-lobb:24")
             .preset("ramp")
             .with(|s| s.lights = vec![LightSettings { position: Some([0.4, 1.0, 1.0]), ..LightSettings::default() }]),
+        StabilityCase::new(SURFACES, "samples of ripples by gradients in 8 bits", "marschner-lobb:24").preset("ramp").with(|s| {
+            s.lights = vec![LightSettings { position: Some([0.4, 1.0, 1.0]), ..LightSettings::default() }];
+            s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba8);
+        }),
     ];
     cases.extend(volumes.into_iter().flatten());
     cases

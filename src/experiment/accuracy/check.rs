@@ -1,0 +1,54 @@
+//! What is refused before a device is opened.
+
+use super::AccuracyJob;
+use super::way::with_step;
+use crate::error::{Error, Result};
+use crate::method;
+use crate::plan;
+use crate::scene::Scene;
+use crate::scene::settings::Shows;
+
+/// Whether a job can be measured, before any file is read.
+///
+/// # Errors
+/// When a method, a step or what a surface shows cannot be.
+pub fn check_settings(job: &AccuracyJob) -> Result<()> {
+    if job.methods.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
+        let remedy = "leave it out; every picture is held against the exact integral";
+        return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
+    }
+    if job.settings.surface.shows != Shows::Color {
+        return Err(Error::usage(
+            "surface.shows (--surface-shows)",
+            "is for single pictures; here places, normals and colours of a surface are all measured",
+            "leave it out",
+        ));
+    }
+    for step in &job.steps {
+        let mut stepped = job.settings.clone();
+        with_step(&mut stepped, &job.settings, *step);
+        stepped.check()?;
+    }
+    Ok(())
+}
+
+/// Whether the scene of a job has a truth to be held against, and can be drawn by each of its methods with each of its steps.
+///
+/// # Errors
+/// When it has none, or cannot be.
+pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
+    if scene.surface.is_none() && !scene.lights.is_empty() {
+        let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
+        return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));
+    }
+    for method in &job.methods {
+        let row = method::of(*method)?;
+        for step in &job.steps {
+            let mut scene = scene.clone();
+            with_step(&mut scene.settings, &job.settings, *step);
+            scene.settings.method.name = *method;
+            plan::plan(&scene, row.papers)?;
+        }
+    }
+    Ok(())
+}
