@@ -96,11 +96,13 @@ fn place_without_a_normal_reflects_nothing() {
 }
 
 #[test]
-fn mirror_shows_the_sky_that_a_ball_reflects() {
-    let scene = scene(|s| {
+fn mirror_shows_what_a_ball_reflects() {
+    let mut scene = scene(|s| {
         s.volume.builtin = Some("gaussian:96".to_owned());
         reflects("sky", 1.0)(s);
     });
+    // Texels that tell their places, so that no direction is taken for another one.
+    scene.environment = Some(Environment { reflectivity: 1.0, ..places::told([32, 16], Mapping::Latlong) }.into());
     let (plan, frame) = drawn(&scene);
     let (rays, size) = (plan.view.rays, plan.view.size);
     let exact = ExactIntegrator::of(&scene).picture(&rays, size);
@@ -125,7 +127,7 @@ fn mirror_shows_the_sky_that_a_ball_reflects() {
     assert!(errors.len() > 100, "{} rays meet the ball", errors.len());
     let usual = [errors[errors.len() / 2], of_frame[of_frame.len() / 2]];
     println!("usual errors {usual:?}, largest {:?}", [errors.last(), of_frame.last()]);
-    assert!(usual[0] < 0.05 && usual[1] < 0.01, "{usual:?}");
+    assert!(usual[0] < 0.15 && usual[1] < 0.05, "{usual:?}");
 }
 
 #[test]

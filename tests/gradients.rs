@@ -8,6 +8,7 @@ use depthleap::frame::{CpuFrame, Structures, cpu};
 use depthleap::method::{METHODS, RC_ERT};
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
+use depthleap::projection::Shown;
 use depthleap::read;
 use depthleap::resource::texels::Texels;
 use depthleap::scene::gradients::GradientCoding;
@@ -64,7 +65,7 @@ fn ramp_has_one_gradient_and_its_own_values() {
     for texture in FORMATS {
         for gradient in OPERATORS {
             let scene = scene("linear:9x5x4", |s| {
-                (s.surface.iso, s.shading.texture, s.shading.gradient) = (Some(0.5), texture, gradient);
+                (s.surface.iso, s.shading.format, s.shading.gradient) = (Some(0.5), texture, gradient);
             });
             let made = texels(&scene);
             for (i, texel) in made.texels.iter().enumerate() {
@@ -82,7 +83,7 @@ fn ramp_has_one_gradient_and_its_own_values() {
 #[test]
 fn nothing_that_changes_has_no_gradient() {
     for texture in FORMATS {
-        let scene = scene("constant:5", |s| (s.surface.iso, s.shading.texture) = (Some(0.5), texture));
+        let scene = scene("constant:5", |s| (s.surface.iso, s.shading.format) = (Some(0.5), texture));
         let made = texels(&scene);
         assert!(made.texels.iter().all(|texel| decoded(&made, *texel).0.length() < 1e-6), "{texture:?}");
         // Ambient light alone, as without a texture.
@@ -108,7 +109,7 @@ fn normal_error(side: usize, operator: GradientOperator, texture: GradientTextur
     let gaussian = builtin::find("gaussian").unwrap();
     let scene = scene(&format!("gaussian:{side}"), |s| {
         (s.surface.iso, s.surface.refine) = (Some(0.4), Refine::Exact);
-        (s.shading.gradient, s.shading.texture) = (operator, texture);
+        (s.shading.gradient, s.shading.format) = (operator, texture);
     });
     let (plan, frame) = drawn(&scene);
     let (rays, step) = (plan.view.rays, scene.settings.sampling.step * scene.field.finest());
@@ -146,7 +147,8 @@ fn volumes() -> Vec<Volume> {
     let dims = [7, 6, 5];
     let count = dims.iter().product::<usize>();
     let mut random = Random(5);
-    let mut numbers = |low: f64, high: f64| (0..count).map(|_| low + (high - low) * random.next()).collect::<Vec<f64>>();
+    let mut numbers =
+        |low: f64, high: f64| (0..count).map(|_| low + (high - low) * random.next()).collect::<Vec<f64>>();
     let volume = |name: &str, voxels: Voxels| Volume::new(name, dims, [1.0, 1.5, 0.7], voxels).unwrap();
     vec![
         volume("u8", Voxels::U8(numbers(0.0, 256.0).iter().map(|v| *v as u8).collect())),
@@ -167,7 +169,7 @@ fn values_beside_gradients_stay_within_what_structures_allow_for() {
             for kept in [VolumeTexture::Auto, VolumeTexture::Native, VolumeTexture::R16, VolumeTexture::R32f] {
                 let settings = settings("constant:2", |s| {
                     lit(s);
-                    (s.shading.texture, s.volume.texture) = (texture, kept);
+                    (s.shading.format, s.volume.texture) = (texture, kept);
                 });
                 let scene = read::scene_of(&settings, |_| Ok(volume.clone())).unwrap();
                 let (made, slack) = (texels(&scene), scene.value_slack());
@@ -198,13 +200,63 @@ fn slack_makes_cells_interesting_that_rounding_may_show() {
     let of = |texture: GradientTexture| {
         let settings = settings("constant:2", |s| {
             lit(s);
-            s.shading.texture = texture;
-            s.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0], [1.001, 1.0, 1.0, 1.0, 0.0], [1.001, 1.0, 1.0, 1.0, 1.0]]);
+            s.shading.format = texture;
+            s.transfer.points =
+                Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0], [1.001, 1.0, 1.0, 1.0, 0.0], [1.001, 1.0, 1.0, 1.0, 1.0]]);
         });
         read::scene_of(&settings, |_| Ok(volume.clone())).unwrap()
     };
     assert!(any_interesting(&of(GradientTexture::Rgba8)));
     assert!(!any_interesting(&of(GradientTexture::Rgba32f)));
+}
+
+/// Samples of a smooth volume that rounding brings across a jump, in cells of which no value is beyond it.
+#[test]
+fn some_cells_are_interesting_by_the_slack_alone() {
+    let scene = scene("gaussian:44", |s| {
+        lit(s);
+        // Voxels of 0.3322 become the code of 0.3333.
+        s.transfer.points = Some(vec![[0.3328, 1.0, 1.0, 1.0, 0.0], [0.3328, 1.0, 1.0, 1.0, 0.9]]);
+        s.shading.format = GradientTexture::Rgba8;
+    });
+    let (made, field) = (texels(&scene), &scene.field);
+    let without = Shown::from(&scene.transfer);
+    let with = Shown::in_x(&scene);
+    let (mut shown, mut by_slack) = (0, 0);
+    for corner in 0..field.values.len() {
+        let [nx, ny, _] = field.dims();
+        let cell = [corner % nx, corner / nx % ny, corner / (nx * ny)];
+        if (0..3).any(|axis| cell[axis] + 1 >= field.dims()[axis]) {
+            continue;
+        }
+        let corners = field.corners(cell);
+        let least = |of: &dyn Fn(usize) -> f64| corners.into_iter().map(of).fold(f64::INFINITY, f64::min);
+        let most = |of: &dyn Fn(usize) -> f64| corners.into_iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let (value, beside) = (|i: usize| f64::from(field.values[i]), |i: usize| decoded(&made, made.texels[i]).1);
+        let interesting = with.anywhere(least(&value), most(&value));
+        if without.anywhere(least(&beside), most(&beside)) {
+            shown += 1;
+            assert!(interesting, "{cell:?} shows");
+            by_slack += usize::from(!without.anywhere(least(&value), most(&value)));
+        }
+    }
+    assert!(shown > 1000 && by_slack > 0, "{by_slack} of {shown} cells");
+}
+
+/// The span of the values has no number in single precision: nothing is known of them, and nothing is skipped.
+#[test]
+fn values_beyond_all_numbers_are_everywhere() {
+    let voxels = Voxels::F32((0..27).map(|i| if i % 2 == 0 { -3e38 } else { 3e38 }).collect());
+    let volume = Volume::new("huge", [3; 3], [1.0; 3], voxels).unwrap();
+    let settings = settings("constant:2", |s| {
+        lit(s);
+        s.volume.range = Some([0.0, 1.0].map(Into::into));
+        s.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0], [1.0, 1.0, 1.0, 1.0, 0.0]]);
+    });
+    let scene = read::scene_of(&settings, |_| Ok(volume.clone())).unwrap();
+    assert_eq!(scene.value_slack(), f64::INFINITY);
+    let (plan, frame) = drawn(&scene);
+    assert!(plan.passes > 0 && frame.pixels.iter().flatten().all(|c| c.is_finite()));
 }
 
 #[test]

@@ -54,6 +54,16 @@ float value_of(vec4 texel) {
 vec3 gradient_at(Place place) {
     return gradient_of(gradient_texel(place));
 }
+
+// As `burdened`, with fetches of the texture that such samples read.
+float burdened_beside(float value) {
+    const vec2 APART = vec2(0.37, 0.71);
+    float found = value;
+    for (uint fetch = 0u; fetch < EXTRA_FETCHES; ++fetch) {
+        found = textureLod(gradients, fract(vec3(found, APART.x + found, APART.y - found)), 0.0).a;
+    }
+    return floatBitsToUint(found) == 0x7f800001u ? 0.0 : value;
+}
 #else
 // The value at a place, in units of the texture, as `sample_volume` has it.
 float value_at(Place place) {

@@ -92,7 +92,7 @@ vec4 shade_sample(Ray ray, uint i) {
 #ifdef GRADIENTS
     // Value and gradient in one fetch [Stegmaier05 §4].
     vec4 texel = gradient_texel(place_at(ray, steps_to(i)));
-    vec4 color = classify(burdened(value_of(texel)), clear);
+    vec4 color = classify(burdened_beside(value_of(texel)), clear);
 #else
     vec4 color = classify(sample_volume(ray, steps_to(i)), clear);
 #endif

@@ -46,7 +46,8 @@ fn comes_above(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
         return false;
     }
     let [low, high] = scene.field.extremes().map(f64::from);
-    let greatest = greatest_opacity(&scene.transfer, low, high);
+    let slack = scene.value_slack();
+    let greatest = greatest_opacity(&scene.transfer, low - slack, high + slack);
     let samples = f64::from(longest_samples.saturating_add(1));
     let clear = match sampling.alpha {
         // As far as the samples go, the last one for a whole step.

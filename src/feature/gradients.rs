@@ -11,17 +11,16 @@ use crate::scene::gradients::GradientCoding;
 use crate::scene::settings::{GradientOperator, GradientTexture, Gradients, Shows};
 
 /// A texture of gradients.
-pub const GRADIENT_TEXTURE: Feature =
-    Feature::of_frame("gradient texture", |context| {
-        let shown = context.scene.settings.surface.shows != Shows::Position;
-        let lit = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE) && shown;
-        match (context.scene.settings.shading.gradients, lit) {
-            (Gradients::Precomputed, true) => Ok(()),
-            (Gradients::Precomputed, false) => Err("no gradient is read".into()),
-            (Gradients::OnTheFly, true) => Err("gradients are taken in the shader".into()),
-            (Gradients::OnTheFly, false) => Err(Why::Untold),
-        }
-    });
+pub const GRADIENT_TEXTURE: Feature = Feature::of_frame("gradient texture", |context| {
+    let shown = context.scene.settings.surface.shows != Shows::Position;
+    let lit = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE) && shown;
+    match (context.scene.settings.shading.gradients, lit) {
+        (Gradients::Precomputed, true) => Ok(()),
+        (Gradients::Precomputed, false) => Err("no gradient is read".into()),
+        (Gradients::OnTheFly, true) => Err("gradients are taken in the shader".into()),
+        (Gradients::OnTheFly, false) => Err(Why::Untold),
+    }
+});
 
 /// Samples that take value and gradient from one texture.
 pub const GRADIENTS_BESIDE_SAMPLES: Feature = Feature {
@@ -45,7 +44,7 @@ fn back(scene: &Scene) -> Vec<Constant> {
 
 /// Of `gradient.glsl`: whether gradients are codes of 8 bits.
 pub fn codes(scene: &Scene) -> Constant {
-    ("GRADIENT_CODES", u32::from(scene.settings.shading.texture == GradientTexture::Rgba8))
+    ("GRADIENT_CODES", u32::from(scene.settings.shading.format == GradientTexture::Rgba8))
 }
 
 /// Whether gradients can be had as a scene asks.

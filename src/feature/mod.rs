@@ -41,6 +41,7 @@ pub use surface::ISO_SURFACE;
 use crate::part::Constant;
 use crate::part::access::{Access, Usage};
 use crate::part::rows::{Context, Feature, Hook};
+use crate::resource;
 use classification::CLASSIFICATION;
 use colors::COLORS;
 use decisions::LATER_DECISIONS;
@@ -105,6 +106,11 @@ pub fn constants(context: &Context, hook: Hook) -> Vec<Constant> {
 pub fn reads(context: &Context, hook: Hook) -> Vec<Access> {
     let there = at(hook).filter(|feature| context.has(feature));
     there.flat_map(|feature| (feature.reads)(context)).map(|resource| Usage::Sampled.of(resource)).collect()
+}
+
+/// The volume, where samples do not take their values from beside their gradients.
+pub fn values(context: &Context) -> Option<Access> {
+    (!context.has(&GRADIENTS_BESIDE_SAMPLES)).then(|| Usage::Sampled.of(resource::VOLUME))
 }
 
 /// The defines of a shader with a hook.

@@ -21,8 +21,8 @@ pub fn plan_on(device: &Device, scene: &Scene, form: Option<Form>, lookup: Optio
     plan::plan_for(scene, Choice { form, on_host, lookup })
 }
 
-/// Whether the host builds distances and gradients: where it is asked to, where the device has no room to, and on a device that is a CPU,
-/// for which the host is the faster (`cargo bench --bench build`).
+/// Whether the host builds distances and gradients: where it is asked to, where the device has no room to, and on a device that is a
+/// CPU, for which the host is the faster (`cargo bench --bench build`).
 fn builds_on_host(device: &Device, scene: &Scene, lookup: Option<Lookup>) -> bool {
     let gradients = if scene.has_gradient_texture() { gradient_bytes(scene) } else { 0 };
     let largest = lookup.map_or(0, |lookup| largest_buffer(&scene.field, &lookup)).max(gradients);

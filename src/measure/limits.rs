@@ -1,7 +1,7 @@
 //! Whether a scene fits, asked before anything large is made for it.
 
 use crate::error::{Error, Result};
-use crate::part::resource::ResourceKind;
+use crate::part::resource::{Resource, ResourceKind};
 use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
@@ -31,8 +31,17 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
         return picture(format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20));
     }
     let volume = &scene.field.volume;
+    let read = |of: Resource| resources.iter().any(|one| std::ptr::eq(one.of, of.of));
+    if read(resource::GRADIENTS) && resource::gradient_bytes(scene) > there {
+        let needed = resource::gradient_bytes(scene);
+        return Err(Error::device(
+            &volume.name,
+            format!("has gradients that take {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20),
+            "use --gradient-texture rgba8, or --gradients on-the-fly",
+        ));
+    }
     let limit = info.max_image_3d;
-    if resources.contains(&resource::VOLUME) && volume.dims.iter().any(|&n| n > limit as usize) {
+    if (read(resource::VOLUME) || read(resource::GRADIENTS)) && volume.dims.iter().any(|&n| n > limit as usize) {
         return Err(Error::device(
             &volume.name,
             format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name),
@@ -47,9 +56,16 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
 /// # Errors
 /// When there is not.
 pub fn check_host(scene: &Scene) -> Result<()> {
+    let there = |needed: u64| usize::try_from(needed).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
+    if scene.has_gradient_texture() && !there(resource::gradient_bytes(scene)) {
+        let problem = format!(
+            "has gradients that take {} MiB of memory, which are not available",
+            resource::gradient_bytes(scene) >> 20
+        );
+        return Err(Error::input(&scene.field.volume.name, problem, "use --gradients on-the-fly"));
+    }
     let needed = HOST_BYTES * pixels(scene);
-    let reserved = usize::try_from(needed).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
-    if reserved {
+    if there(needed) {
         return Ok(());
     }
     let problem = format!("takes {} MiB of memory, which are not available", needed >> 20);

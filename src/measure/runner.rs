@@ -25,6 +25,7 @@ use crate::plan::{self, Plan};
 use crate::resource;
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodSettings, Settings};
+use crate::scene::texture::TextureChoice;
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -112,9 +113,13 @@ impl<'a> Runner<'a> {
     /// Changes settings that leave volume, transfer function and view as they are: of sampling, what surfaces show, and the format
     /// colours are summed up in.
     pub fn vary(&mut self, change: impl FnOnce(&mut Settings)) {
+        let kept = |scene: &Scene| (TextureChoice::of(scene), scene.value_slack());
+        let before = kept(&self.scene);
         change(&mut self.scene.settings);
         self.references.clear();
-        self.resident.iter_mut().for_each(Resident::forget_table);
+        // What is on the device was made for how values are kept there.
+        let same = before == kept(&self.scene);
+        self.resident.iter_mut().for_each(if same { Resident::forget_table } else { Resident::forget_scene });
     }
 
     pub fn scene(&self) -> &Scene {

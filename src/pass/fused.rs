@@ -20,8 +20,8 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
         Usage::Sampled.of(resource::FRAME),
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
-        Usage::Sampled.of(resource::VOLUME),
     ];
+    accesses.extend(feature::values(context));
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
     if context.has(&DISTANCES) {

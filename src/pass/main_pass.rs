@@ -37,9 +37,9 @@ fn sampled(context: &Context, ends: bool) -> (Draw, Vec<Access>) {
         Usage::Sampled.of(resource::FRAME),
         Usage::Sampled.of(resource::ENTRY),
         Usage::Sampled.of(resource::DIRECTION),
-        Usage::Sampled.of(resource::VOLUME),
-        Usage::Color.of(gathered(context)),
     ];
+    accesses.extend(feature::values(context));
+    accesses.push(Usage::Color.of(gathered(context)));
     let mut draw = Draw::plain(&BOX_FRONT, "main_pass.frag", twin::main_pass::main_pass);
     draw.specialize([constants::samples(context.scene), constants::projection(context)]);
     let hooks = [Some(Hook::Ray), ends.then_some(Hook::RayEnd), Some(Hook::Sample)];

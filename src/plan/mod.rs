@@ -180,7 +180,10 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     // The frame's list has room for them.
     let mut steps = frame;
     steps.splice(0..0, before);
-    let texture = (method.on_device && passes > 0).then(|| TextureChoice::of(scene));
+    let texture = (method.on_device && passes > 0).then(|| {
+        let volume = TextureChoice::of(scene);
+        TextureChoice { error: volume.error.max(scene.error_beside()), ..volume }
+    });
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
     let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, ends);

@@ -18,7 +18,7 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     warnings.extend(scene.environment.iter().flat_map(|environment| environment.warnings.clone()));
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
     warnings.extend(empty(scene, plan));
-    warnings.extend(plan.texture.and_then(|texture| imprecise(scene, &texture)));
+    warnings.extend(plan.texture.and_then(|_| imprecise(scene, &TextureChoice::of(scene))));
     warnings.extend(rounded_beside_gradients(scene));
     warnings.extend(plan.method.on_device.then(|| out_of_format(scene, plan)).flatten());
     warnings
@@ -188,15 +188,15 @@ fn imprecise(scene: &Scene, texture: &TextureChoice) -> Option<String> {
     ))
 }
 
-/// That samples take their values from where they are rounded.
+/// That samples take their values from where they are less precise than was asked for.
 fn rounded_beside_gradients(scene: &Scene) -> Option<String> {
-    let (slack, asked) = (scene.value_slack(), scene.settings.volume.precision);
-    (slack > asked).then(|| {
+    let (error, asked) = (scene.error_beside(), scene.settings.volume.precision);
+    (error > asked).then(|| {
         format!(
-            "beside gradients kept as {} the x of a voxel is off by up to {}, more than the {} asked for; use --gradient-texture \
-             rgba32f, or --gradients on-the-fly",
-            scene.settings.shading.texture.name(),
-            Within(slack),
+            "beside gradients kept as {} an interpolated x is off by up to {}, more than the {} asked for; use --gradient-texture \
+             rgba32f, --filter exact, or --gradients on-the-fly",
+            scene.settings.shading.format.name(),
+            Within(error),
             Within(asked)
         )
     })

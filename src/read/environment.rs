@@ -10,6 +10,7 @@ use super::exr_header;
 use crate::error::{Error, Result};
 use crate::scene::builtin::nearest;
 use crate::scene::environment::Picture;
+use crate::scene::limits::BRIGHTEST;
 use crate::scene::settings::{ENVIRONMENTS, EnvironmentSettings, Mapping};
 use crate::scene::{Environment, Polygons};
 
@@ -99,7 +100,7 @@ pub fn picture(path: &Path) -> Result<Picture> {
         Ok(format @ (ImageFormat::Png | ImageFormat::Hdr | ImageFormat::OpenExr)) => format,
         _ => {
             let remedy = "give PNG, Radiance HDR (beginning with #?RADIANCE) or OpenEXR";
-            return Err(bad("is no picture of a known format".to_owned(), remedy));
+            return Err(bad("is not a picture of a known format".to_owned(), remedy));
         }
     };
     if format == ImageFormat::OpenExr {
@@ -109,11 +110,11 @@ pub fn picture(path: &Path) -> Result<Picture> {
     let decoded = decoded(path, &bytes, format)?;
     let size = [decoded.width(), decoded.height()].map(|n| n as usize);
     let texels = if format == ImageFormat::Png { of_srgb(decoded) } else { of_linear(decoded) };
-    match texels.iter().position(|texel| !texel.iter().all(|c| (0.0..=f32::MAX).contains(c))) {
+    match texels.iter().position(|texel| !texel.iter().all(|c| (0.0..=BRIGHTEST).contains(&f64::from(*c)))) {
         Some(at) => {
             let place = format!("column {} of row {}, counted from 0", at % size[0], at / size[0]);
             let problem = format!("has the texel {:?} in {place}", texels[at]);
-            Err(bad(problem, "give a picture of finite numbers, none below 0"))
+            Err(bad(problem, &format!("give a picture of numbers from 0 to {BRIGHTEST}")))
         }
         None => Ok(Picture { size, texels }),
     }

@@ -36,6 +36,12 @@ pub fn check(bytes: &[u8], most: [u32; 2]) -> Result<(), String> {
                     return Err(format!("has {} x {} texels", sides[0], sides[1]));
                 }
             }
+            b"tiles" => {
+                let sides: Vec<i64> = value.chunks_exact(4).take(2).map(number).collect();
+                if sides.len() < 2 || sides.iter().zip(most).any(|(side, most)| !(1..=i64::from(most)).contains(side)) {
+                    return Err(format!("has tiles of {sides:?} texels"));
+                }
+            }
             b"channels" if value.len() > MOST_OF_CHANNELS => {
                 return Err(format!("has a list of channels of {} bytes", value.len()));
             }

@@ -12,7 +12,7 @@ static GRADIENTS_INFO: ResourceInfo = ResourceInfo {
     name: "gradients",
     holds: "along the gradient at a voxel's centre in parts of the steepest (volume space), and in alpha the value, as gradient.glsl has them",
     kind: ResourceKind::Texture(Texture {
-        format: |facts| match facts.scene.settings.shading.texture {
+        format: |facts| match facts.scene.settings.shading.format {
             GradientTexture::Rgba8 => vk::Format::R8G8B8A8_UNORM,
             GradientTexture::Rgba16f => vk::Format::R16G16B16A16_SFLOAT,
             GradientTexture::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
@@ -28,7 +28,7 @@ static GRADIENTS_INFO: ResourceInfo = ResourceInfo {
 
 /// That of gradients as a scene's settings have them.
 pub fn gradients(scene: &Scene) -> Resource {
-    let ShadingSettings { gradient, texture, .. } = scene.settings.shading;
+    let ShadingSettings { gradient, format: texture, .. } = scene.settings.shading;
     let formats = GradientTexture::Rgba32f as u16 + 1;
     GRADIENTS.at(gradient as u16 * formats + texture as u16)
 }
@@ -47,5 +47,5 @@ static GRADIENT_TEXELS_INFO: ResourceInfo = ResourceInfo {
 
 /// Bytes of the gradients of a scene's volume.
 pub fn gradient_bytes(scene: &Scene) -> u64 {
-    (scene.field.values.len() * scene.settings.shading.texture.bytes()) as u64
+    (scene.field.values.len() * scene.settings.shading.format.bytes()) as u64
 }

@@ -46,7 +46,7 @@ pub struct GradientCoding {
 
 impl GradientCoding {
     pub fn of(scene: &Scene) -> Self {
-        let (field, texture) = (&scene.field, scene.settings.shading.texture);
+        let (field, texture) = (&scene.field, scene.settings.shading.format);
         let choice = TextureChoice::of(scene);
         let map = TextureMap::of(field, choice.kept);
         let whole = choice.format != TexelFormat::R32f;
@@ -69,6 +69,8 @@ impl GradientCoding {
         let [times, plus] = if spread { [1.0 / span, -low / span] } else { [1.0, 0.0] };
         let number = |value: f64| value.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
         let lost = match texture {
+            // Single precision has no number for what a code stands for.
+            _ if spread && span > f32::MAX.into() => f64::INFINITY,
             GradientTexture::Rgba8 if matches!(choice.kept, Coding::Widened) || choice.format == TexelFormat::R8 => 0.0,
             GradientTexture::Rgba8 => HALF_A_CODE,
             GradientTexture::Rgba16f => HALF_PRECISION,
@@ -100,6 +102,16 @@ impl Scene {
     /// Whether samples take their values from where their gradients are.
     pub fn samples_gradient_texture(&self) -> bool {
         self.surface.is_none() && self.has_gradient_texture()
+    }
+
+    /// A bound of the error of an interpolated x that samples take from beside their gradients; 0 where they take none there.
+    pub fn error_beside(&self) -> f64 {
+        if !self.samples_gradient_texture() {
+            return 0.0;
+        }
+        let coding = GradientCoding::of(self);
+        let codes = coding.texture == GradientTexture::Rgba8;
+        self.value_slack() + self.error_beside_gradients(codes, coding.to_x[0].abs())
     }
 
     /// How far a value that a sample takes may be from that of the volume between voxels, as x.

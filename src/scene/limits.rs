@@ -37,7 +37,8 @@ const SMALL: f64 = 1e-6;
 /// Numbers from this on are told as `1e30`.
 const LARGE: f64 = 1e15;
 
-/// Colours beyond this, in light, have no number in single precision.
+/// The largest colour of surfaces and of what they reflect: sums of what lights make of it stay far below the largest numbers of
+/// single precision.
 pub const BRIGHTEST: f64 = 1e6;
 
 impl Limits {

@@ -293,14 +293,34 @@ fn error_of(field: &Field, kept: Coding, format: TexelFormat, filter: Filter, un
         (Coding::Spread, _) => (high - low, 1.0, (high - low) * 0.5 / f64::from(u16::MAX)),
         _ => (low.abs().max(high.abs()), 1.0, 0.0),
     };
-    let side = field.dims().into_iter().max().unwrap_or(1) as f64;
-    let (rounding, weight) = match (filter, unit.errors[format as usize]) {
-        (Filter::Nearest, _) => (0.0, 0.0),
-        (Filter::Exact, _) => (0.0, SHADER_PLACE),
-        (Filter::Hardware, Some(unit)) => (unit.rounding, unit.weight + 3.0 * UNIT_PLACE * side),
-        (Filter::Hardware, None) => return f64::INFINITY,
-    };
-    let error =
-        made + (rounding + F32_ROUNDING * top) * span + if weight > 0.0 { weight * field.contrast() } else { 0.0 };
+    let interpolated =
+        interpolation(field, format, filter, unit).map_or(f64::INFINITY, |FilterError { rounding, weight }| {
+            (rounding + F32_ROUNDING * top) * span + if weight > 0.0 { weight * field.contrast() } else { 0.0 }
+        });
+    let error = made + interpolated;
     if error.is_nan() { f64::INFINITY } else { error }
+}
+
+/// What interpolating a volume's texels may be off, places included; none where the texture unit cannot.
+fn interpolation(field: &Field, format: TexelFormat, filter: Filter, unit: &TextureUnit) -> Option<FilterError> {
+    let side = field.dims().into_iter().max().unwrap_or(1) as f64;
+    match filter {
+        Filter::Nearest => Some(FilterError { rounding: 0.0, weight: 0.0 }),
+        Filter::Exact => Some(FilterError { rounding: 0.0, weight: SHADER_PLACE }),
+        Filter::Hardware => unit.errors[format as usize]
+            .map(|unit| FilterError { weight: unit.weight + 3.0 * UNIT_PLACE * side, ..unit }),
+    }
+}
+
+impl Scene {
+    /// A bound of the error of an interpolated x that samples take from beside their gradients, in codes of 8 bits where `codes`, of
+    /// which a number from 0 to 1 spans so much of x; besides what making these lost.
+    pub(super) fn error_beside_gradients(&self, codes: bool, span: f64) -> f64 {
+        // Units do to four channels what they do to one, and halves are interpolated as numbers of single precision.
+        let format = if codes { TexelFormat::R8 } else { TexelFormat::R32f };
+        let (field, filter) = (&self.field, self.settings.sampling.filter);
+        interpolation(field, format, filter, &self.unit).map_or(f64::INFINITY, |FilterError { rounding, weight }| {
+            (rounding + F32_ROUNDING) * span + weight * field.contrast()
+        })
+    }
 }

@@ -92,9 +92,8 @@ impl Twin<'_> {
             };
             let beside = |n: usize| DVec3::from_array([0, 1, 2].map(|a| if n >> a & 1 == 0 { -1e-6 } else { 1e-6 }));
             let (found, others) = (at(voxel), (0..8).map(|n| at(voxel + beside(n))));
-            let unsure = others.fold([false; 4], |unsure, other| {
-                std::array::from_fn(|c| unsure[c] || other[c] != found[c])
-            });
+            let unsure =
+                others.fold([false; 4], |unsure, other| std::array::from_fn(|c| unsure[c] || other[c] != found[c]));
             return std::array::from_fn(|c| Channel {
                 value: found[c],
                 off: if unsure[c] { f64::INFINITY } else { VALUE_ROUNDING * found[c].abs() },
@@ -102,7 +101,8 @@ impl Twin<'_> {
         }
         let [x, y, z] = [0, 1, 2].map(|axis| bracket(voxel[axis], dims[axis]));
         let corner = |n: usize| {
-            let one = |axis: usize, (below, above, _): (usize, usize, f64)| if n >> axis & 1 == 0 { below } else { above };
+            let one =
+                |axis: usize, (below, above, _): (usize, usize, f64)| if n >> axis & 1 == 0 { below } else { above };
             texel(one(0, x), one(1, y), one(2, z))
         };
         let corners: [[f64; 4]; 8] = std::array::from_fn(corner);

@@ -55,7 +55,7 @@ impl Twin<'_> {
             let steepest = light.shininess.sqrt().max(1.0);
             let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
             rounding += angle.min(2.0) * shown + largest(light.specular) * specular.min(1.0);
-            turns |= angle > 0.0 && self.turns(light, &point, angle);
+            turns |= normal != DVec3::ZERO && angle > 0.0 && self.turns(light, &point, angle);
         }
         let brightest = shaded.into_iter().fold(0.0, f64::max);
         Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, angle, turns }

@@ -9,8 +9,8 @@ use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::resource;
-use depthleap::scene::field::NanPolicy;
 use depthleap::resource::texels::Texels;
+use depthleap::scene::field::NanPolicy;
 use depthleap::scene::gradients::GradientCoding;
 use depthleap::scene::settings::{
     CELLS, Filter, GradientOperator, GradientTexture, Gradients, MethodName, Settings, ShadingSettings, VolumeTexture,
@@ -161,7 +161,8 @@ fn gradients(device: &Arc<Device>, operator: GradientOperator) {
         for texture in [GradientTexture::Rgba8, GradientTexture::Rgba16f, GradientTexture::Rgba32f] {
             let mut settings = Settings::default();
             settings.surface.iso = Some(0.5);
-            settings.shading = ShadingSettings { gradients: Gradients::Precomputed, gradient: operator, texture };
+            settings.shading =
+                ShadingSettings { gradients: Gradients::Precomputed, gradient: operator, format: texture };
             settings.method.name = method::RC_ERT.name();
             let scene = read::scene_of(&settings, |_| Ok(volume.clone())).expect("a sound scene");
             let plan = plan(&scene, method::papers_form(method::RC_ERT.name())).expect("a plan");

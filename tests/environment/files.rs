@@ -103,9 +103,9 @@ fn what_is_no_picture_is_refused() {
     let exr = |first, second| encoded(&float([4, 2], first, second), ImageFormat::OpenExr);
     let gray = [0.5; 3];
     let cases: [(&str, Vec<u8>, &str); 12] = [
-        ("empty.png", Vec::new(), "no picture of a known format"),
-        ("text.hdr", b"a sky, and a sun in it".to_vec(), "no picture of a known format"),
-        ("photo.jpg", b"\xff\xd8\xff\xe0 and so on".to_vec(), "no picture of a known format"),
+        ("empty.png", Vec::new(), "not a picture of a known format"),
+        ("text.hdr", b"a sky, and a sun in it".to_vec(), "not a picture of a known format"),
+        ("photo.jpg", b"\xff\xd8\xff\xe0 and so on".to_vec(), "not a picture of a known format"),
         ("none.hdr", hdr("-Y 0 +X 8"), "has 8 x 0 texels"),
         ("huge.hdr", hdr("-Y 100000 +X 100000"), "8192 x 4096"),
         ("wide.png", encoded(&codes([8193, 1]), ImageFormat::Png), "8192 x 4096"),
@@ -145,6 +145,18 @@ fn pictures_that_are_cut_off_are_refused_wherever() {
                 Ok(_) => assert!(name == "a.png" && length >= bytes.len() - 20, "{length} of {name}"),
             }
         }
+    }
+}
+
+#[test]
+fn tiles_larger_than_any_picture_are_refused() {
+    let (name, bytes) = whole().into_iter().find(|(name, _)| name.ends_with(".exr")).unwrap();
+    for (across, down) in [(1_073_741_822u32, 1_073_741_822u32), (0, 16), (16, u32::MAX)] {
+        let value = [&across.to_le_bytes()[..], &down.to_le_bytes(), &[0]].concat();
+        let attribute = [&b"tiles\0tiledesc\0"[..], &9u32.to_le_bytes(), &value].concat();
+        let tiled = [&bytes[..8], &attribute, &bytes[8..]].concat();
+        let error = read_as(name, &tiled).unwrap_err();
+        assert!(error.to_string().contains("has tiles of"), "{error}");
     }
 }
 

@@ -101,16 +101,18 @@ fn errors(change: fn(&mut Settings)) -> Vec<(f64, SurfaceError)> {
 
 #[test]
 fn places_are_of_the_order_of_their_refinement() {
-    let changes: [(&str, fn(&mut Settings), f64); 2] = [
-        ("not refined", |s| s.surface.refine = Refine::None, 1.0),
-        ("refined linear", |s| s.surface.refine = Refine::Linear, 1.5),
+    type Change = fn(&mut Settings);
+    // A step that goes through a face between cells is refined to the first order only.
+    let changes: [(&str, Change, [f64; 2]); 2] = [
+        ("not refined", |s| s.surface.refine = Refine::None, [0.8, 1.2]),
+        ("refined linear", |s| s.surface.refine = Refine::Linear, [1.4, 2.2]),
     ];
-    for (name, change, expected) in changes {
+    for (name, change, [least, most]) in changes {
         let errors = errors(change);
         let places: Vec<(f64, f64)> = errors.iter().map(|(step, error)| (*step, error.position.unwrap())).collect();
         let found = fit(&places).unwrap().order;
         println!("{name}: order {found:.3} of {errors:?}");
-        assert!((found - expected).abs() < 0.3, "{name}: order {found} of {errors:?}");
+        assert!((least..most).contains(&found), "{name}: order {found} of {errors:?}");
     }
 }
 
@@ -152,7 +154,7 @@ fn of_a_surface() -> Accuracy {
         curve("rc", "refined exact, sobel rgba8", |s| {
             s.surface.refine = Refine::Exact;
             (s.shading.gradients, s.shading.gradient) = (Gradients::Precomputed, GradientOperator::Sobel);
-            s.shading.texture = GradientTexture::Rgba8;
+            s.shading.format = GradientTexture::Rgba8;
         }),
     ];
     all

@@ -3,17 +3,23 @@
 //! A new feature is given its scenes here, and nowhere else: a test asks that some have it and some lack it. A new
 //! projection has its scene by itself.
 
+use std::sync::Arc;
+
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::projection::{MIP, PROJECTIONS};
 use depthleap::read;
+use depthleap::scene::environment::Picture;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
-    Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last, LightSettings, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows, SurfaceLevel, VolumeTexture,
+    Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last,
+    LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows,
+    SurfaceLevel, VolumeTexture,
 };
-use depthleap::scene::{Camera, Scene};
+use depthleap::scene::{Camera, Environment, Scene};
+use glam::{DQuat, EulerRot};
 
 type Change = fn(&mut Settings);
 
@@ -153,6 +159,8 @@ const KINDS: [(&str, Change); 54] = [
     ("samples in light, by gradients in 8 bits, with opacities that jump", |s| {
         s.lights = vec![LightSettings { direction: Some([-3.0, 2.0, 1.0]), ..Default::default() }];
         s.shading = gradients(GradientOperator::Sobel, GradientTexture::Rgba8);
+        // In f32, whose values 8 bits move across the jumps.
+        s.volume.builtin = Some("gaussian:22x18x20".to_owned());
         s.transfer.points = Some(JUMPS.to_vec());
     }),
     ("samples in light, by gradients of the texture unit", |s| {
@@ -190,7 +198,7 @@ const JUMPS: [[f64; 5]; 5] = [
 ];
 
 fn gradients(gradient: GradientOperator, texture: GradientTexture) -> ShadingSettings {
-    ShadingSettings { gradients: Gradients::Precomputed, gradient, texture }
+    ShadingSettings { gradients: Gradients::Precomputed, gradient, format: texture }
 }
 
 /// A red light from afar with a highlight, and a blue one near the volume.
@@ -273,7 +281,25 @@ pub fn scenes() -> Vec<(String, Scene)> {
         (row.name, settings)
     });
     let scene = |(name, settings): (&str, Settings)| (name.to_owned(), read::scene(&settings).expect("a sound scene"));
-    kinds.chain(projections).map(scene).collect()
+    kinds.chain(projections).map(scene).chain([mirror_ball()]).collect()
+}
+
+/// An iso-surface that reflects the picture of a mirror ball, unlike on each of its sides, in axes that are those of no volume.
+fn mirror_ball() -> (String, Scene) {
+    const SIDE: usize = 24;
+    let mut scene = read::scene(&settings(|s| s.surface.iso = Some(90.0))).expect("a sound scene");
+    let texel = |i: usize| {
+        let [x, y] = [i % SIDE, i / SIDE].map(|at| (at as f32 + 0.5) / SIDE as f32);
+        [x, y, 0.5 + 0.5 * x * y]
+    };
+    scene.environment = Some(Arc::new(Environment {
+        picture: Picture { size: [SIDE; 2], texels: (0..SIDE * SIDE).map(texel).collect() },
+        mapping: Mapping::Sphere,
+        reflectivity: 0.4,
+        turn: DQuat::from_euler(EulerRot::XYZ, 0.4, -0.7, 1.1),
+        warnings: Vec::new(),
+    }));
+    ("an iso-surface that reflects a mirror ball, in turned axes".to_owned(), scene)
 }
 
 /// The scene as its camera sees it, and from within.

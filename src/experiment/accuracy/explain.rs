@@ -60,7 +60,7 @@ pub fn expected_order(scene: &Scene) -> Option<f64> {
 /// Where the normals of a surface come from, and what that does to their error.
 fn gradients(scene: &Scene) -> &'static str {
     let shading = &scene.settings.shading;
-    match (shading.gradients, shading.texture) {
+    match (shading.gradients, shading.format) {
         (Gradients::OnTheFly, _) => {
             "normals are differences over two voxels, and those of the exact picture the gradient of the interpolant: that does not \
              fall with the step"
@@ -114,7 +114,7 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
         say(
             scene.settings.surface.refine == Refine::Linear,
             "places between two samples are of the second order in the step within a cell, and of the first where a step goes through \
-             a face between cells, which fewer do the shorter they are: root mean squares have the order 1.5",
+             a face between cells, which fewer do the shorter they are: root mean squares then fall with an order from 1.5 to 2",
         );
         say(true, gradients(scene));
         return remarks;

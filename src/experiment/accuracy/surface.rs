@@ -154,7 +154,7 @@ pub fn surface_orders(scene: &Scene, points: &[Point]) -> Option<SurfaceOrders> 
             // Of the second order within a cell. Where a step goes through a face between cells the interpolant has a corner, and the
             // place is off by the first order; such steps are a share of all that falls with the step, so that squares fall with its
             // third power.
-            Refine::Linear => Some(1.5),
+            Refine::Linear => Some(2.0),
             Refine::Exact => None,
         },
     })

@@ -46,7 +46,7 @@ impl Gradient {
         let shading = &settings.shading;
         match shading.gradients {
             Gradients::OnTheFly => Self::OnTheFly,
-            Gradients::Precomputed => Self::Precomputed(shading.gradient, shading.texture),
+            Gradients::Precomputed => Self::Precomputed(shading.gradient, shading.format),
         }
     }
 
@@ -56,7 +56,7 @@ impl Gradient {
             Self::OnTheFly => (shading.gradients, shading.gradient) = (Gradients::OnTheFly, GradientOperator::Central),
             Self::Precomputed(operator, texture) => {
                 shading.gradients = Gradients::Precomputed;
-                (shading.gradient, shading.texture) = (operator, texture);
+                (shading.gradient, shading.format) = (operator, texture);
             }
         }
     }

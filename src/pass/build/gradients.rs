@@ -16,7 +16,7 @@ const SOBEL_VOXELS: usize = 27;
 /// The steps that make the gradients of a scene's volume.
 pub fn gradients(scene: &Scene) -> Vec<Step> {
     let (shading, coding) = (&scene.settings.shading, GradientCoding::of(scene));
-    let format = match shading.texture {
+    let format = match shading.format {
         GradientTexture::Rgba8 => "RGBA8",
         GradientTexture::Rgba16f => "RGBA16F",
         GradientTexture::Rgba32f => "RGBA32F",

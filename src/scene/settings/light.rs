@@ -92,7 +92,11 @@ impl LightSettings {
             return refuse(key, "has the length 0".to_owned(), "give the direction that the light comes from");
         }
         if !self.color.iter().all(|c| (0.0..=LARGEST_PART).contains(c)) {
-            return refuse("color", format!("is {:?}", self.color), &format!("give three numbers from 0 to {LARGEST_PART}"));
+            return refuse(
+                "color",
+                format!("is {:?}", self.color),
+                &format!("give three numbers from 0 to {LARGEST_PART}"),
+            );
         }
         let parts = [("ambient", self.ambient), ("diffuse", self.diffuse), ("specular", self.specular)];
         for (key, part) in parts {

@@ -40,7 +40,11 @@ impl MeshSettings {
         }
         for (key, color) in [("color", Some(self.color)), ("back", self.back)] {
             if let Some(color) = color.filter(|color| !color.iter().all(|c| (0.0..=BRIGHTEST).contains(c))) {
-                return Err(placed.refusal(key, format!("is {color:?}"), &format!("give three numbers from 0 to {BRIGHTEST}")));
+                return Err(placed.refusal(
+                    key,
+                    format!("is {color:?}"),
+                    &format!("give three numbers from 0 to {BRIGHTEST}"),
+                ));
             }
         }
         Ok(())

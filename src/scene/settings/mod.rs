@@ -48,8 +48,8 @@ pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
 pub use placed::Placed;
-pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
+pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 

@@ -20,7 +20,7 @@ section! {
 
     /// Format of the texture that precomputed gradients are kept in, with the value beside them
     #[arg(long = "gradient-texture", value_name = "FORMAT")]
-    texture: GradientTexture = GradientTexture::Rgba16f;
+    format as "texture": GradientTexture = GradientTexture::Rgba16f;
 }
 
 /// Where gradients come from.

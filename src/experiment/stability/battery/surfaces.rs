@@ -35,7 +35,7 @@ fn of_voxels(name: &str, iso: f64, value: impl Fn(usize) -> u8) -> Option<Stabil
 }
 
 fn precomputed(gradient: GradientOperator, texture: GradientTexture) -> ShadingSettings {
-    ShadingSettings { gradients: Gradients::Precomputed, gradient, texture }
+    ShadingSettings { gradients: Gradients::Precomputed, gradient, format: texture }
 }
 
 /// A value that grows to 1e38 with its place in a list of 12^3.
@@ -63,11 +63,13 @@ pub fn cases() -> Vec<StabilityCase> {
         of_voxels("a value above all there are", 200.01, |x| if x == 5 { 200 } else { 0 }),
         of_voxels("gradients in 8 bits of a plateau", 120.0, |x| if x < 6 { 20 } else { 120 })
             .map(|case| case.with(|s| s.shading = precomputed(GradientOperator::Sobel, GradientTexture::Rgba8))),
-        Volume::new("values to 1e38", [12; 3], [1.0; 3], Voxels::F32((0..12 * 12 * 12).map(huge).collect())).ok().map(|volume| {
-            surface("gradients of values to 1e38", "constant:2", 2e37).voxels(volume).with(|s| {
-                s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba16f);
-            })
-        }),
+        Volume::new("values to 1e38", [12; 3], [1.0; 3], Voxels::F32((0..12 * 12 * 12).map(huge).collect())).ok().map(
+            |volume| {
+                surface("gradients of values to 1e38", "constant:2", 2e37).voxels(volume).with(|s| {
+                    s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba16f);
+                })
+            },
+        ),
     ];
     let mut cases = vec![
         surface("the value of a voxel", "linear:25", 0.5).with(from_low),
@@ -108,10 +110,12 @@ pub fn cases() -> Vec<StabilityCase> {
         StabilityCase::new(SURFACES, "samples of ripples", "marschner-lobb:24")
             .preset("ramp")
             .with(|s| s.lights = vec![LightSettings { position: Some([0.4, 1.0, 1.0]), ..LightSettings::default() }]),
-        StabilityCase::new(SURFACES, "samples of ripples by gradients in 8 bits", "marschner-lobb:24").preset("ramp").with(|s| {
-            s.lights = vec![LightSettings { position: Some([0.4, 1.0, 1.0]), ..LightSettings::default() }];
-            s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba8);
-        }),
+        StabilityCase::new(SURFACES, "samples of ripples by gradients in 8 bits", "marschner-lobb:24")
+            .preset("ramp")
+            .with(|s| {
+                s.lights = vec![LightSettings { position: Some([0.4, 1.0, 1.0]), ..LightSettings::default() }];
+                s.shading = precomputed(GradientOperator::Central, GradientTexture::Rgba8);
+            }),
     ];
     cases.extend(volumes.into_iter().flatten());
     cases
