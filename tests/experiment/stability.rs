@@ -38,10 +38,11 @@ impl Integrator for Twin {
     }
 }
 
-/// Of each case but those of thousands of passes, by one method.
-fn outcomes(method: MethodName, mut integrator: Twin) -> Vec<(StabilityCase, Outcome)> {
+/// Of each case of the groups whose names begin so, but those of thousands of passes, by one method.
+fn outcomes(method: MethodName, groups: &str, mut integrator: Twin) -> Vec<(StabilityCase, Outcome)> {
     let cases = battery().into_iter().filter(|case| !case.name.contains("5461 passes"));
-    cases
+    let of_groups = cases.filter(|case| case.group.starts_with(groups));
+    of_groups
         .filter_map(|case| {
             let outcome = judge(&case, &[method], &mut integrator).unwrap().pop()?;
             Some((case, outcome))
@@ -49,18 +50,18 @@ fn outcomes(method: MethodName, mut integrator: Twin) -> Vec<(StabilityCase, Out
         .collect()
 }
 
-fn wrong(integrator: Twin) -> Vec<String> {
+fn wrong(integrator: Twin, groups: &str) -> Vec<String> {
     let wrong = |(case, outcome): (StabilityCase, Outcome)| {
         (outcome.verdict == StabilityVerdict::Wrong)
             .then(|| format!("{}: {}: {:?}", case.group, case.name, outcome.remark))
     };
-    outcomes(method::NN_OMNI.name(), integrator).into_iter().filter_map(wrong).collect()
+    outcomes(method::NN_OMNI.name(), groups, integrator).into_iter().filter_map(wrong).collect()
 }
 
 #[test]
 fn the_same_samples_in_f64_pass() {
     for method in [method::NN_OMNI.name(), method::RC_BLOCK.name()] {
-        for (case, outcome) in outcomes(method, RIGHT) {
+        for (case, outcome) in outcomes(method, "", RIGHT) {
             assert_eq!(outcome.verdict, StabilityVerdict::Right, "{}: {}: {:?}", case.group, case.name, outcome.remark);
         }
     }
@@ -103,9 +104,9 @@ fn broken_integrators_fail() {
         ),
     ];
     for (name, integrator, group) in broken {
-        let wrong = wrong(integrator);
+        let wrong = wrong(integrator, group);
         println!("{name}: {} cases", wrong.len());
-        assert!(wrong.iter().any(|case| case.starts_with(group)), "{name}: {wrong:?}");
+        assert!(!wrong.is_empty(), "{name}");
     }
 }
 

@@ -92,9 +92,16 @@ fn decades(values: impl Iterator<Item = f64>) -> Decades {
     (low..high.max(low + 0.1), ticks)
 }
 
+/// Logarithms so near to a whole number are those of powers of ten, but for rounding.
+const TEN_EXACTLY: f64 = 1e-9;
+
 fn number(log: f64) -> String {
     let value = 10f64.powf(log);
-    if (0.01..10_000.0).contains(&value) { format!("{}", (value * 1e4).round() / 1e4) } else { format!("1e{log:.0}") }
+    match value {
+        value if (0.01..10_000.0).contains(&value) => format!("{}", (value * 1e4).round() / 1e4),
+        _ if (log - log.round()).abs() < TEN_EXACTLY => format!("1e{log:.0}"),
+        value => format!("{value:.1e}"),
+    }
 }
 
 fn draw<'a>(area: &Area<'a>, panel: &Panel, x_title: &str, [x, y]: [&Decades; 2]) -> Drawn<'a> {
