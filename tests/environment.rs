@@ -1,6 +1,8 @@
 //! What iso-surfaces reflect: where directions lie in a picture, what a surface makes of it, and what is refused, held against
 //! closed forms. Needs no device.
 
+#[path = "drawn/mod.rs"]
+mod drawn;
 #[path = "environment/files.rs"]
 mod files;
 #[path = "environment/places.rs"]
@@ -9,7 +11,6 @@ mod places;
 use std::sync::Arc;
 
 use depthleap::feature::ENVIRONMENT;
-use depthleap::frame::{CpuFrame, Structures, cpu};
 use depthleap::method::{METHODS, RC_ERT};
 use depthleap::part::Work;
 use depthleap::plan::{Plan, plan, warnings};
@@ -19,6 +20,7 @@ use depthleap::scene::settings::{Filter, Mapping, MeshSettings, Refine, Settings
 use depthleap::scene::{Environment, Scene, builtin};
 use depthleap::shared::environment_rows;
 use depthleap::truth::exact::ExactIntegrator;
+use drawn::drawn;
 use glam::{DQuat, DVec3};
 
 const SIZE: [u32; 2] = [100, 80];
@@ -46,14 +48,6 @@ fn settings(change: impl FnOnce(&mut Settings)) -> Settings {
 }
 
 const ISO: f64 = 0.2;
-
-fn drawn(scene: &Scene) -> (Plan, CpuFrame) {
-    let plan = plan(scene, RC_ERT.papers).unwrap();
-    let mut structures = Structures::default();
-    structures.prepare(scene, &plan);
-    let frame = cpu::run(scene, &plan, &structures, cpu::SUB_PIXEL_BITS);
-    (plan, frame)
-}
 
 fn reflects(name: &str, part: f64) -> impl FnOnce(&mut Settings) {
     let name = name.to_owned();

@@ -1,13 +1,14 @@
 //! Gradients in a texture: what texels hold, how far normals are from closed forms, that values beside gradients stay within what
 //! structures allow for, and what is left out. Needs no device.
 
+#[path = "drawn/mod.rs"]
+mod drawn;
 #[path = "random/mod.rs"]
 mod random;
 
-use depthleap::frame::{CpuFrame, Structures, cpu};
 use depthleap::method::{METHODS, RC_ERT};
 use depthleap::part::rows::Method;
-use depthleap::plan::{Plan, plan};
+use depthleap::plan::plan;
 use depthleap::projection::Shown;
 use depthleap::read;
 use depthleap::resource::texels::Texels;
@@ -20,6 +21,7 @@ use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Volume, builtin};
 use depthleap::structure::cells::{Values, any_interesting};
 use depthleap::structure::gradients::GradientTexels;
+use drawn::drawn;
 use glam::DVec3;
 use random::Random;
 
@@ -94,14 +96,6 @@ fn nothing_that_changes_has_no_gradient() {
         });
         assert_eq!(with.pixels, without.pixels, "{texture:?}");
     }
-}
-
-fn drawn(scene: &Scene) -> (Plan, CpuFrame) {
-    let plan = plan(scene, RC_ERT.papers).unwrap();
-    let mut structures = Structures::default();
-    structures.prepare(scene, &plan);
-    let frame = cpu::run(scene, &plan, &structures, cpu::SUB_PIXEL_BITS);
-    (plan, frame)
 }
 
 /// The root mean square of the angle between normals of an iso-surface and those of the closed form.

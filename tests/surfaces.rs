@@ -1,12 +1,13 @@
 //! Iso-surfaces: where rays meet them and which normals they have, held against closed forms and against roots of the interpolant;
 //! lights; what is refused. Needs no device.
 
+#[path = "drawn/mod.rs"]
+mod drawn;
 #[path = "surfaces/numbers.rs"]
 mod numbers;
 
-use depthleap::frame::{CpuFrame, Structures, cpu};
 use depthleap::method::{METHODS, RC_ERT};
-use depthleap::plan::{Plan, plan, warnings};
+use depthleap::plan::{plan, warnings};
 use depthleap::read;
 use depthleap::scene::light::{Light, LightPlace, LitPoint, lit};
 use depthleap::scene::settings::{
@@ -15,6 +16,7 @@ use depthleap::scene::settings::{
 };
 use depthleap::scene::{Scene, builtin};
 use depthleap::truth::exact::ExactIntegrator;
+use drawn::drawn;
 use glam::DVec3;
 
 const SIZE: [u32; 2] = [100, 80];
@@ -36,14 +38,6 @@ fn settings(volume: &str, iso: f64, change: impl FnOnce(&mut Settings)) -> Setti
     settings.method.name = RC_ERT.name();
     change(&mut settings);
     settings
-}
-
-fn drawn(scene: &Scene) -> (Plan, CpuFrame) {
-    let plan = plan(scene, RC_ERT.papers).unwrap();
-    let mut structures = Structures::default();
-    structures.prepare(scene, &plan);
-    let frame = cpu::run(scene, &plan, &structures, cpu::SUB_PIXEL_BITS);
-    (plan, frame)
 }
 
 /// A place on a surface as a frame has it, and the root of the interpolant, both in volume space.

@@ -132,33 +132,24 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             *flags |= vk::ImageUsageFlags::TRANSFER_SRC;
         }
     }
-    let accumulated = resource::ACCUMULATED.format(formats);
-    if !device.format_supports(accumulated, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
-        return Err(Error::device(
-            &device.info.name,
-            format!("cannot blend into {accumulated:?}"),
-            "choose another image.accumulate: rgba32f, rgba16f or rgba8",
-        ));
+    let check = |resource: Resource, needed: vk::FormatFeatureFlags, cannot: &str, remedy: &str| {
+        let format = resource.format(formats);
+        match device.format_supports(format, needed) {
+            true => Ok(()),
+            false => Err(Error::device(&device.info.name, format!("{cannot} {format:?}"), remedy)),
+        }
+    };
+    let (blend, depth) =
+        (vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT);
+    let remedy = "choose another image.accumulate: rgba32f, rgba16f or rgba8";
+    check(resource::ACCUMULATED, blend, "cannot blend into", remedy)?;
+    if usages.contains_key(&resource::SURFACE_HIT) {
+        let remedy = "leave the iso-surface out, whose places rays gather there, or use another device";
+        check(resource::SURFACE_HIT, blend, "cannot blend into", remedy)?;
     }
-    let hit = resource::SURFACE_HIT.format(formats);
-    if usages.contains_key(&resource::SURFACE_HIT)
-        && !device.format_supports(hit, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND)
-    {
-        return Err(Error::device(
-            &device.info.name,
-            format!("cannot blend into {hit:?}, which rays look for an iso-surface with"),
-            "leave the iso-surface out, or use another device",
-        ));
-    }
-    let stored = resource::STORED.format(formats);
-    if usages.contains_key(&resource::STORED)
-        && !device.format_supports(stored, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT)
-    {
-        return Err(Error::device(
-            &device.info.name,
-            format!("has no depth format {stored:?}"),
-            "use --depth-format d32 or d16, which every device has",
-        ));
+    if usages.contains_key(&resource::STORED) {
+        let remedy = "use --depth-format d32 or d16, which every device has";
+        check(resource::STORED, depth, "has no depth format", remedy)?;
     }
     let Region { width, height, .. } = plan.view.region;
     usages

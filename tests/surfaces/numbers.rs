@@ -6,7 +6,8 @@ use depthleap::scene::settings::{LightSettings, Refine, Shows};
 use depthleap::truth::exact::ExactIntegrator;
 use glam::DVec3;
 
-use super::{SIZE, drawn, scene};
+use super::drawn::drawn;
+use super::{SIZE, scene};
 
 /// What the twin's frame shows of a surface that is found exactly, and what the exact rays show, of pixels in which both meet it.
 fn shown(shows: Shows) -> Vec<(DVec3, DVec3, DVec3)> {
