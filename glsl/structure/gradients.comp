@@ -23,6 +23,9 @@ layout(constant_id = 6) const float BESIDE_PLUS = 0.0;
 
 // What keeps whole numbers in the middle between two codes from becoming one or the other by rounding.
 const float TIE = 1e-3;
+// The code of 8 bits that stands for a component of 0, and how many codes there are to each side of it.
+const float ZERO_CODE = 128.0;
+const float CODES = 127.0;
 
 // The number of a voxel.
 float number_at(ivec3 place) {
@@ -88,8 +91,8 @@ void main() {
     precise float scaled = number_at(place) * BESIDE_TIMES;
     precise float value = scaled + BESIDE_PLUS;
 #if defined(RGBA8)
-    precise vec3 times = gradient * 127.0;
-    precise vec3 codes = times + (128.5 + TIE);
+    precise vec3 times = gradient * CODES;
+    precise vec3 codes = times + (ZERO_CODE + 0.5 + TIE);
     precise float of_value = value * 255.0;
     of_value = of_value + (0.5 + TIE);
     uvec4 texel = uvec4(clamp(floor(vec4(codes, of_value)), 0.0, 255.0));

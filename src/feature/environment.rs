@@ -3,7 +3,7 @@
 use super::surface::{ISO_SURFACE, is_lit};
 use crate::error::{Error, Result};
 use crate::part::Constant;
-use crate::part::rows::{Feature, Why};
+use crate::part::rows::{Feature, Hook, Why};
 use crate::resource;
 use crate::scene::Scene;
 use crate::scene::settings::Mapping;
@@ -13,7 +13,7 @@ pub const ENVIRONMENT: Feature = Feature {
     with: Some("ENVIRONMENT"),
     constants: |context| context.scene.environment.iter().map(|environment| mapping(environment.mapping)).collect(),
     reads: |_| vec![resource::ENVIRONMENT, resource::ENVIRONMENT_PLACE],
-    ..Feature::of_frame("environment", |context| match &context.scene.environment {
+    ..Feature::at(Hook::Light, "environment", |context| match &context.scene.environment {
         Some(_) if !context.has(&ISO_SURFACE) => Err(Why::Untold),
         Some(_) if !is_lit(context) => Err("places and normals of surfaces show, which reflect nothing".into()),
         Some(environment) if context.plans() && environment.reflectivity == 0.0 => Err("reflectivity is 0".into()),

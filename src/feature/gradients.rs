@@ -2,25 +2,31 @@
 
 use super::lights::LIT_SAMPLES;
 use super::surface::ISO_SURFACE;
-use crate::error::{Error, Result};
+use crate::error::{self, Error};
 use crate::part::Constant;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::resource;
 use crate::scene::Scene;
 use crate::scene::gradients::GradientCoding;
-use crate::scene::settings::{GradientOperator, GradientTexture, Gradients, Shows};
+use crate::scene::settings::{GradientOperator, GradientTexture, Gradients};
 
-/// A texture of gradients.
-pub const GRADIENT_TEXTURE: Feature = Feature::of_frame("gradient texture", |context| {
-    let shown = context.scene.settings.surface.shows != Shows::Position;
-    let lit = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE) && shown;
-    match (context.scene.settings.shading.gradients, lit) {
+/// A texture of gradients, which the lighting pass reads.
+pub const GRADIENT_TEXTURE: Feature = Feature {
+    with: Some("GRADIENTS"),
+    constants: |context| if needed(context).is_ok() { vec![codes(context.scene)] } else { Vec::new() },
+    reads: |context| vec![resource::gradients(context.scene)],
+    ..Feature::at(Hook::Light, "gradient texture", needed)
+};
+
+fn needed(context: &Context) -> Result<(), Why> {
+    let there = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE);
+    match (context.scene.settings.shading.gradients, there && context.scene.reads_gradients()) {
         (Gradients::Precomputed, true) => Ok(()),
         (Gradients::Precomputed, false) => Err("no gradient is read".into()),
         (Gradients::OnTheFly, true) => Err("gradients are taken in the shader".into()),
         (Gradients::OnTheFly, false) => Err(Why::Untold),
     }
-});
+}
 
 /// Samples that take value and gradient from one texture.
 pub const GRADIENTS_BESIDE_SAMPLES: Feature = Feature {
@@ -43,7 +49,7 @@ fn back(scene: &Scene) -> Vec<Constant> {
 }
 
 /// Of `gradient.glsl`: whether gradients are codes of 8 bits.
-pub fn codes(scene: &Scene) -> Constant {
+fn codes(scene: &Scene) -> Constant {
     ("GRADIENT_CODES", u32::from(scene.settings.shading.format == GradientTexture::Rgba8))
 }
 
@@ -51,7 +57,7 @@ pub fn codes(scene: &Scene) -> Constant {
 ///
 /// # Errors
 /// When they cannot.
-pub fn check(scene: &Scene) -> Result<()> {
+pub fn check(scene: &Scene) -> error::Result<()> {
     let shading = &scene.settings.shading;
     match (shading.gradients, shading.gradient) {
         (Gradients::OnTheFly, GradientOperator::Sobel) => Err(Error::usage(

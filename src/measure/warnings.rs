@@ -88,6 +88,7 @@ fn clipped(scene: &Scene, picture: &Picture) -> Option<String> {
     (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
         let advice = match (&scene.surface, scene.lights.is_empty()) {
             (Some(_), _) if scene.settings.surface.shows != Shows::Color => "",
+            (Some(_), _) if scene.environment.is_some() => ", or give weaker lights or a smaller --reflectivity",
             (_, false) => ", or give weaker lights",
             (Some(_), true) => ", or give darker colours of the surface",
             (None, true) => ", or give another --range",

@@ -139,6 +139,8 @@ pub enum Hook {
     RayEnd,
     /// Where samples are taken and classified.
     Sample,
+    /// Where surfaces are lit, once for all rays.
+    Light,
     /// Where it is decided which rays go on.
     Decide,
     /// In the frame as a whole: steps are there or not.

@@ -1,8 +1,7 @@
 //! The lighting pass of iso-surfaces, once for all rays [Thesis ch. 5 §3.2].
 
 use super::constants;
-use crate::feature::gradients::{self, GRADIENT_TEXTURE};
-use crate::feature::{self, ENVIRONMENT, lights, surface};
+use crate::feature::{self, lights, surface};
 use crate::geometry::BOX_FRONT;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
@@ -23,23 +22,13 @@ pub fn lighting(context: &Context) -> Step {
         Usage::Sampled.of(resource::SURFACE_LEVELS),
     ];
     accesses.extend(surface::is_lit(context).then(|| Usage::Sampled.of(lights::lights(context))));
-    let precomputed = context.has(&GRADIENT_TEXTURE);
-    accesses.extend(precomputed.then(|| Usage::Sampled.of(resource::gradients(context.scene))));
-    let reflects = context.has(&ENVIRONMENT);
-    let environment = if reflects { (ENVIRONMENT.reads)(context) } else { Vec::new() };
-    accesses.extend(environment.into_iter().map(|resource| Usage::Sampled.of(resource)));
+    accesses.extend(feature::reads(context, Hook::Light));
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
     let mut draw = Draw::plain(&BOX_FRONT, "lighting.frag", twin::lighting::lighting);
     draw.blend = Blend::Over;
     draw.define(surface::shows(context));
-    if precomputed {
-        draw.define(["GRADIENTS"]);
-        draw.specialize([gradients::codes(context.scene)]);
-    }
-    draw.define(ENVIRONMENT.define(context));
-    if reflects {
-        draw.specialize((ENVIRONMENT.constants)(context));
-    }
+    draw.define(feature::defines(context, Hook::Light));
+    draw.specialize(feature::constants(context, Hook::Light));
     draw.specialize([constants::samples(context.scene)]);
     let sampling = feature::constants(context, Hook::Sample);
     draw.specialize(sampling.into_iter().filter(|(name, _)| SAMPLING.contains(name)));

@@ -5,7 +5,7 @@ use super::Scene;
 use super::settings::{GradientTexture, Gradients, Shows};
 use super::texture::{Coding, TexelFormat, TextureChoice, TextureMap};
 
-/// The largest step of a code of 8 bits is half of one, and what [`TIE`] takes.
+/// What rounding to a code of 8 bits takes from a number from 0 to 1 at the most: half a code, and what [`TIE`] adds.
 const HALF_A_CODE: f64 = (0.5 + TIE as f64) / 255.0;
 
 /// What half precision takes from numbers up to 1.
@@ -45,6 +45,7 @@ pub struct GradientCoding {
 }
 
 impl GradientCoding {
+    /// The coding of a scene's volume, as its texture keeps it, in the format that the scene asks for.
     pub fn of(scene: &Scene) -> Self {
         let (field, texture) = (&scene.field, scene.settings.shading.format);
         let choice = TextureChoice::of(scene);
@@ -92,11 +93,15 @@ impl GradientCoding {
 }
 
 impl Scene {
-    /// Whether gradients of the scene, which are read, are kept in a texture.
-    pub fn has_gradient_texture(&self) -> bool {
+    /// Whether a frame of the scene reads gradients: of surfaces for their colours and normals, of samples where they are lit.
+    pub fn reads_gradients(&self) -> bool {
         let shown = self.settings.surface.shows != Shows::Position;
-        let read = if self.surface.is_some() { shown } else { !self.lights.is_empty() };
-        read && self.settings.shading.gradients == Gradients::Precomputed
+        if self.surface.is_some() { shown } else { !self.lights.is_empty() }
+    }
+
+    /// Whether a frame of the scene reads gradients, and from a texture.
+    pub fn has_gradient_texture(&self) -> bool {
+        self.reads_gradients() && self.settings.shading.gradients == Gradients::Precomputed
     }
 
     /// Whether samples take their values from where their gradients are.

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::samples::FACE_ROUNDING;
 use super::segment::{PLACE_ROUNDING, VALUE_ROUNDING};
 use super::{Pixel, Twin};
 use crate::math::interpolate::{bracket, mix, nearest, trilinear};
@@ -90,7 +91,8 @@ impl Twin<'_> {
                 let [x, y, z] = [0, 1, 2].map(|axis| voxel[axis].floor().clamp(0.0, dims[axis] as f64 - 1.0) as usize);
                 texel(x, y, z)
             };
-            let beside = |n: usize| DVec3::from_array([0, 1, 2].map(|a| if n >> a & 1 == 0 { -1e-6 } else { 1e-6 }));
+            let by = |n: usize, axis: usize| if n >> axis & 1 == 0 { -FACE_ROUNDING } else { FACE_ROUNDING };
+            let beside = |n: usize| DVec3::from_array([0, 1, 2].map(|axis| by(n, axis)));
             let (found, others) = (at(voxel), (0..8).map(|n| at(voxel + beside(n))));
             let unsure =
                 others.fold([false; 4], |unsure, other| std::array::from_fn(|c| unsure[c] || other[c] != found[c]));

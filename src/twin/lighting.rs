@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::phong::Shaded;
+use super::phong::{PLACE_ROUNDING, Shaded};
 use super::{Effect, MetSurface, Pixel, Twin};
 use crate::math::blend::Blend;
 use crate::projection::{first_met, on_surface};
@@ -12,9 +12,6 @@ use crate::truth::exact::ExactIntegrator;
 
 /// Colours that f32 may be off by more than this are left undecided.
 pub(super) const LOOSE: f64 = 1e-3;
-
-/// What f32 takes from a place on a ray, in parts of the volume's longest side.
-const PLACE_ROUNDING: f64 = 5e-7;
 
 /// What f32 takes from a component of a vector that is made of length 1.
 const UNIT_ROUNDING: f64 = 5e-7;

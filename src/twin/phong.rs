@@ -15,8 +15,8 @@ const COSINE_ROUNDING: f64 = 3e-7;
 /// What devices take from a power near 1 by their exponential.
 const POWER_ROUNDING: f64 = 4e-6;
 
-/// What f32 takes from a place, in parts of the volume's longest side.
-const PLACE_ROUNDING: f64 = 5e-7;
+/// What f32 takes from a place on a ray, in parts of the volume's longest side.
+pub(super) const PLACE_ROUNDING: f64 = 5e-7;
 
 /// A lit colour, and how far f32 may be off at the very place unless it turns.
 pub(super) struct Shaded {

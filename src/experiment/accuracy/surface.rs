@@ -152,8 +152,8 @@ pub fn surface_orders(scene: &Scene, points: &[Point]) -> Option<SurfaceOrders> 
         expected_position: match scene.settings.surface.refine {
             Refine::None => Some(1.0),
             // Of the second order within a cell. Where a step goes through a face between cells the interpolant has a corner, and the
-            // place is off by the first order; such steps are a share of all that falls with the step, so that squares fall with its
-            // third power.
+            // place is off by the first order; such steps are a share of all that falls with the step, so that root mean squares fall with
+            // an order from 1.5 on, which a remark says.
             Refine::Linear => Some(2.0),
             Refine::Exact => None,
         },
