@@ -15,10 +15,5 @@ layout(location = 0) out vec4 entry;
 
 void main() {
     vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
-    Interval interval = box_interval(pixel);
-    for (int axis = 0; axis < 3; ++axis) {
-        vec2 coordinate = texture_coordinate(pixel, interval.enter, axis, interval.enter_axis, false);
-        entry[axis] = clamp(coordinate.x + coordinate.y, 0.0, 1.0);
-    }
-    entry.w = 1.0;
+    entry = vec4(entry_at(pixel, box_interval(pixel)), 1.0);
 }

@@ -25,9 +25,13 @@
 #include "shared/cull.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
+#ifndef DENSE
+#include "shared/distance.glsl"
+#endif
 #include "shared/near_neighbor.glsl"
 #include "shared/volume.glsl"
 #include "shared/opacity.glsl"
@@ -44,6 +48,7 @@
 #include "shared/gradient.glsl"
 #include "shared/phong.glsl"
 #endif
+#include "shared/shade.glsl"
 #include "shared/segment.glsl"
 
 #ifndef ENDLESS

@@ -17,6 +17,7 @@
 #include "shared/frame.glsl"
 #include "shared/cull.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
@@ -34,6 +35,7 @@
 #include "shared/gradient.glsl"
 #include "shared/phong.glsl"
 #endif
+#include "shared/shade.glsl"
 #include "shared/segment.glsl"
 
 #ifndef CULL_DISCARD

@@ -16,9 +16,13 @@
 #include "shared/cull.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
+#ifndef DENSE
+#include "shared/distance.glsl"
+#endif
 #include "shared/near_neighbor.glsl"
 #include "shared/opacity.glsl"
 #ifndef ENDLESS

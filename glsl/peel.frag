@@ -15,6 +15,7 @@
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"
 #include "shared/ray.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/polygon.glsl"
 #ifdef CLIPPED

@@ -10,6 +10,7 @@
 #include "shared/projection.glsl"
 #ifdef SHORT_RAYS
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #endif

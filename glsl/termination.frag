@@ -10,6 +10,7 @@
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
 #include "shared/opacity.glsl"

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use depthleap::feature::FEATURES;
 use depthleap::feature::layers::first_section;
 use depthleap::frame::{Structures, cpu};
-use depthleap::method::{METHODS, RC, without_skipping};
+use depthleap::method::{METHODS, RC};
 use depthleap::part::rows::{Context, Feature, Method, Why};
 use depthleap::plan::plan;
 use depthleap::scene::Scene;
@@ -103,7 +103,7 @@ fn the_first_scene_has_work_to_skip() {
     for (view, scene) in scenes::views(&scene) {
         let all = main_fragments(&scene, &RC);
         for method in scenes::methods(&scene) {
-            let (rule, own) = (main_fragments(&scene, without_skipping(method)), main_fragments(&scene, method));
+            let (rule, own) = (main_fragments(&scene, method.unskipped()), main_fragments(&scene, method));
             let said = format!("{}, {view}: {own} main fragments, {rule} without skipping, {all} in all", method.name);
             assert!(method.ends_rays == (rule < all), "{said}");
             assert!(method.looks_ahead() == (own < rule), "{said}");

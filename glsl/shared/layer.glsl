@@ -1,4 +1,4 @@
-// The layers of a ray, by what a draw reads of them. Twin: src/twin/layer.rs.
+// The layers of a ray, by what a draw reads of them. Twin: src/twin/layer.rs. Needs pixel.glsl.
 //
 // LAYER_BEFORE: the part of the ray that is drawn begins at a layer; a ray without that layer has no such part.
 // LAYER_BEHIND: it ends at the next layer, where the ray has one. OPAQUE: it ends at the nearest opaque polygon.
@@ -25,7 +25,7 @@ layout(set = 0, binding = 15) uniform sampler2D layer[LAYERS];
 
 vec4 layer_before() {
 #ifdef LAYER_BEFORE
-    return texelFetch(layer[0], ivec2(gl_FragCoord.xy), 0);
+    return texelFetch(layer[0], this_pixel(), 0);
 #else
     return vec4(0.0);
 #endif
@@ -35,13 +35,13 @@ vec4 layer_before() {
 vec4 layer_behind() {
     vec4 behind = vec4(0.0);
 #ifdef OPAQUE
-    behind = texelFetch(layer[LAYERS - 1], ivec2(gl_FragCoord.xy), 0);
+    behind = texelFetch(layer[LAYERS - 1], this_pixel(), 0);
 #endif
 #ifdef LAYER_BEHIND
 #ifdef LAYER_BEFORE
-    vec4 next = texelFetch(layer[1], ivec2(gl_FragCoord.xy), 0);
+    vec4 next = texelFetch(layer[1], this_pixel(), 0);
 #else
-    vec4 next = texelFetch(layer[0], ivec2(gl_FragCoord.xy), 0);
+    vec4 next = texelFetch(layer[0], this_pixel(), 0);
 #endif
     if (next.x > 0.0) {
         behind = next;

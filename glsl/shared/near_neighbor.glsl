@@ -1,5 +1,5 @@
 // Near-neighbor skipping [Thesis §5.3]: where along a ray there is work next. Twin: src/twin/near_neighbor.rs.
-// Needs frame.glsl, mark.glsl, double_float.glsl, samples.glsl and section.glsl.
+// Needs frame.glsl, mark.glsl, double_float.glsl, samples.glsl, section.glsl and (without DENSE) distance.glsl.
 //
 // Departures: 1. distances are bounds for the trilinear footprint, not from voxel to voxel; and since they hold from
 // everywhere in a cell, they are counted from where the ray leaves its cell. 2. All samples that lie within are free, so
@@ -14,46 +14,9 @@ uint next_section(Ray ray, uint section) {
     return i < ray.samples ? i / SAMPLES_PER_PASS : frame.passes;
 }
 #else
-// Of each cell a byte, or eight bytes in two words, one for each octant: 0 where the cell is interesting, else one more
-// than the voxels of the finest spacing that a ray may go from anywhere in the cell.
-layout(set = 0, binding = 10) uniform usampler3D nearest_distance;
-
 layout(constant_id = 6) const bool EXIT_LOOKAHEAD = true;
-// Side of a cell of the structure, in voxels.
-layout(constant_id = 7) const int CELL = 1;
-// The structure tells octants apart.
-layout(constant_id = 8) const bool OCTANTS = false;
-// A sample stands for all values up to the next one (preintegrated.glsl).
-layout(constant_id = 12) const bool SPANS = false;
 // How often a ray may look in a segment.
 layout(constant_id = 9) const uint LOOKUPS = 1;
-
-// The largest distance there is, and the longest way inside a cell that is counted, in voxels.
-const float FAR = 254.0;
-
-// The byte of the structure's cell `box`.
-uint byte_of(Ray ray, ivec3 box) {
-    uvec2 texel = texelFetch(nearest_distance, box, 0).rg;
-    if (!OCTANTS) {
-        return texel.x;
-    }
-    uvec3 down = uvec3(lessThan(ray.step_vector, vec3(0.0)));
-    return bitfieldExtract(down.z == 0u ? texel.x : texel.y, int(8u * (down.x + 2u * down.y)), 8);
-}
-
-// Samples from `i` on that show nothing.
-uint free_from(Ray ray, uint i) {
-    Place place = place_at(ray, steps_to(i));
-    ivec3 box = cell_of(place) / CELL;
-    uint byte = byte_of(ray, box);
-    if (byte == 0u) {
-        return 0u;
-    }
-    float inside = min(steps_inside(ray, place, box, CELL) * frame.step_voxels, FAR);
-    uint free = free_samples(inside + float(byte - 1u));
-    // What lies between the last free sample and the next one need not be free.
-    return SPANS ? free - 1u : free;
-}
 
 // The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
 uint next_section(Ray ray, uint section) {

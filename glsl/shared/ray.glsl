@@ -109,3 +109,37 @@ vec2 texture_coordinate(vec2 pixel, vec2 depth, int axis, int face_axis, bool le
     vec2 inverse_extent = vec2(frame.inverse_extent[0][axis], frame.inverse_extent[1][axis]);
     return df_add(df_multiply(point, inverse_extent), vec2(0.5, 0.0));
 }
+
+// Where the ray enters, texture coordinates. Those of the ray through the pixel's centre, not interpolated ones: rasterisers move
+// corners to a raster of 1/256 pixel.
+vec3 entry_at(vec2 pixel, Interval interval) {
+    vec3 begin;
+    for (int axis = 0; axis < 3; ++axis) {
+        vec2 coordinate = texture_coordinate(pixel, interval.enter, axis, interval.enter_axis, false);
+        begin[axis] = clamp(coordinate.x + coordinate.y, 0.0, 1.0);
+    }
+    return begin;
+}
+
+// normalize(exit - entry) and the length, both in volume space, of a ray that enters at `begin`; 0 where it misses. Each is the f32
+// nearest to the true number: samples far along the ray magnify an error made here.
+vec4 direction_from(vec2 pixel, Interval interval, vec3 begin) {
+    vec2 way[3];
+    vec2 square = vec2(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        vec2 end = texture_coordinate(pixel, interval.leave, axis, interval.leave_axis, true);
+        vec2 difference = df_add(end, vec2(-begin[axis], 0.0));
+        way[axis] = df_multiply(difference, vec2(frame.extent[0][axis], frame.extent[1][axis]));
+        square = df_add(square, df_multiply(way[axis], way[axis]));
+    }
+    bool hits = df_less(interval.enter, interval.leave) && square.x > 0.0;
+    vec4 direction = vec4(0.0);
+    if (hits) {
+        vec2 size = df_sqrt(square);
+        for (int axis = 0; axis < 3; ++axis) {
+            direction[axis] = df_divide(way[axis], size).x;
+        }
+        direction.w = size.x;
+    }
+    return direction;
+}

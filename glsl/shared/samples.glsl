@@ -1,13 +1,17 @@
-// Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl, double_float.glsl and
-// layer.glsl.
+// Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl, double_float.glsl, pixel.glsl and
+// layer.glsl. OWN_RAYS: the ray is found here, not in passes before; ray.glsl.
 
+#ifndef OWN_RAYS
 layout(set = 0, binding = 1) uniform sampler2D entry;
 layout(set = 0, binding = 2) uniform sampler2D direction;
+#endif
 
 // Bits cleared of a part of a step: 9 are left, so that their product with up to 2^15 steps is exact.
 const int STRIDE_CLEARED = 15;
 
 struct Ray {
+    // Unit vector along the ray, volume space.
+    vec3 direction;
     // Texture coordinates of the entry point, and from one sample to the next.
     vec3 entry;
     vec3 step_vector;
@@ -81,12 +85,11 @@ void cut(inout Ray ray) {
 }
 #endif
 
-// The ray of this fragment's pixel, from what the first two passes stored [KW03 §2.1].
-Ray load_ray() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 unit = texelFetch(direction, pixel, 0);
+// A ray from the entry point (texture coordinates) along `unit`, a unit vector in volume space with the ray's length in w.
+Ray ray_along(vec3 begin, vec4 unit) {
     Ray ray;
-    ray.entry = texelFetch(entry, pixel, 0).xyz;
+    ray.direction = unit.xyz;
+    ray.entry = begin;
     for (int axis = 0; axis < 3; ++axis) {
         vec2 stride = df_multiply(vec2(unit[axis], 0.0), vec2(frame.voxel_step[0][axis], frame.voxel_step[1][axis]));
         ray.stride_high[axis] = leading(stride.x, STRIDE_CLEARED);
@@ -103,6 +106,28 @@ Ray load_ray() {
     cut(ray);
 #endif
     return ray;
+}
+
+// The ray of this pixel, from what the first two passes stored [KW03 §2.1], or as they find it.
+Ray load_ray() {
+#ifdef OWN_RAYS
+    vec2 pixel = vec2(this_pixel()) + 0.5 + vec2(frame.first_column, frame.first_row);
+    Interval interval = box_interval(pixel);
+    vec3 begin = entry_at(pixel, interval);
+    return ray_along(begin, direction_from(pixel, interval, begin));
+#else
+    ivec2 pixel = this_pixel();
+    return ray_along(texelFetch(entry, pixel, 0).xyz, texelFetch(direction, pixel, 0));
+#endif
+}
+
+// The first sample of the part of the ray that is drawn.
+uint first_sample(Ray ray) {
+#ifdef LAYERS
+    return ray.first;
+#else
+    return 0u;
+#endif
 }
 
 // The first sample of the segment for main pass `pass`.

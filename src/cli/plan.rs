@@ -12,7 +12,7 @@ use crate::measure::record::TextureRecord;
 use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
 use crate::part::resource::Resource;
-use crate::part::{Constant, Step, Work};
+use crate::part::{Constant, Step};
 use crate::plan::{self, LeftOut};
 use crate::read;
 use crate::scene::Scene;
@@ -89,10 +89,7 @@ impl<'a> StepJson<'a> {
             step.accesses.iter().filter(|a| a.usage.writes() == writes).map(|a| a.resource.name()).collect()
         };
         let shader = step.work.shader().map(|shader| shader.to_string());
-        let constants: &[Constant] = match &step.work {
-            Work::Draw(draw) => &draw.constants,
-            _ => &[],
-        };
+        let constants = step.work.constants();
         Self { name: &step.name, group: step.group.name(), reads: names(false), writes: names(true), shader, constants }
     }
 }

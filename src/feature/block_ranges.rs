@@ -16,7 +16,11 @@ fn needed(context: &Context) -> Result<(), Why> {
     match context.method.ahead {
         Ahead::Blocks if context.plans() && all_interesting(context.scene) => Err(DENSE.into()),
         // Nobody would read them before a main pass that always runs.
-        Ahead::Blocks if context.passes == 1 && !context.scene.settings.method.block_first => Err(ONLY_PASS.into()),
+        Ahead::Blocks
+            if context.passes == 1 && !context.method.loops() && !context.scene.settings.method.block_first =>
+        {
+            Err(ONLY_PASS.into())
+        }
         Ahead::Blocks => Ok(()),
         // Distances of larger cells are built from the ranges of these.
         Ahead::Distances(_) if context.has(&DISTANCES) && context.lookup().is_some_and(|l| l.reads_ranges()) => {

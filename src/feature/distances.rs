@@ -24,14 +24,13 @@ fn needed(context: &Context) -> Result<(), Why> {
     }
 }
 
-/// The constants of `near_neighbor.glsl`: how distances are looked up.
+/// The constants of `distance.glsl` and `near_neighbor.glsl`: how distances are looked up. A loop looks again wherever it has leapt to.
 fn constants(context: &Context) -> Vec<Constant> {
     let Some(distance) = context.method.distance() else { return Vec::new() };
     let method = &context.scene.settings.method;
-    vec![
-        ("EXIT_LOOKAHEAD", u32::from(method.exit_lookahead)),
-        ("CELL", method.cell),
-        ("LOOKUPS", method.lookups),
-        ("OCTANTS", u32::from(distance == Distance::Directional)),
-    ]
+    let mut constants = vec![("CELL", method.cell), ("OCTANTS", u32::from(distance == Distance::Directional))];
+    if !context.method.loops() {
+        constants.extend([("EXIT_LOOKAHEAD", u32::from(method.exit_lookahead)), ("LOOKUPS", method.lookups)]);
+    }
+    constants
 }

@@ -17,7 +17,7 @@ fn needed(context: &Context) -> Result<(), Why> {
         return Ok(());
     }
     // A method that culls nothing ends nothing either.
-    Err(if context.form.is_some() { never_ends(context).into() } else { Why::Untold })
+    Err(if context.form.is_some() || context.method.loops() { never_ends(context).into() } else { Why::Untold })
 }
 
 /// Whether any ray may end early: where its opacity comes above T, or as the projection has it.

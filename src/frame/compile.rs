@@ -13,14 +13,14 @@ use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
 use crate::part::access::{Access, Usage};
 use crate::part::resource::{Origin, Resource, ResourceKind};
-use crate::part::{Draw, Step, Work};
+use crate::part::{Draw, PixelDispatch, Step, Work};
 use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Region;
 use crate::scene::Scene;
 use crate::scene::settings::{Filter, Formats};
 use crate::vulkan::{
-    DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass, RenderPassInfo, Sampler,
+    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass, RenderPassInfo, Sampler,
 };
 
 /// The objects of a frame.
@@ -37,6 +37,7 @@ pub struct CompiledStep {
     pub step: Step,
     pub barriers: Vec<Barrier>,
     pub draw: Option<CompiledDraw>,
+    pub pixels: Option<CompiledPixels>,
     /// Where RES is once the step has run, for whoever reads the picture then.
     pub accumulated_layout: Option<vk::ImageLayout>,
 }
@@ -51,6 +52,12 @@ pub struct CompiledDraw {
     pub clears: Vec<vk::ClearValue>,
     /// Corners of the geometry.
     pub corners: Range<u32>,
+}
+
+/// What a compute shader over the pixels binds.
+pub struct CompiledPixels {
+    pub pipeline: Arc<ComputePipeline>,
+    pub set: DescriptorSet,
 }
 
 struct Compiler<'a> {
@@ -97,11 +104,16 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
             (Work::Draw(draw), Some(info)) => Some(compiler.draw(&step, draw, info, &scheduled.targets)?),
             _ => None,
         };
+        let pixels = match &step.work {
+            Work::Pixels(pixels) => Some(compiler.pixels(&step, pixels)?),
+            _ => None,
+        };
         compiled.push(CompiledStep {
             accumulated_layout: scheduled.layouts.get(&resource::ACCUMULATED).copied(),
             step,
             barriers: scheduled.barriers,
             draw,
+            pixels,
         });
     }
     let copies = compiler.targets.contains_key(&resource::MARKS);
@@ -125,6 +137,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
             Usage::DepthWrite | Usage::DepthTest | Usage::DepthAnew => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
             Usage::CopySource => vk::ImageUsageFlags::TRANSFER_SRC,
             Usage::CopyTarget => vk::ImageUsageFlags::TRANSFER_DST,
+            Usage::ImageWrite | Usage::ImageUpdate => vk::ImageUsageFlags::STORAGE,
             _ => vk::ImageUsageFlags::SAMPLED,
         };
         if access.resource == resource::ACCUMULATED {
@@ -143,6 +156,10 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
         (vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT);
     let remedy = "choose another image.accumulate: rgba32f, rgba16f or rgba8";
     check(resource::ACCUMULATED, blend, "cannot blend into", remedy)?;
+    let computed = plan.steps.iter().any(|step| matches!(step.work, Work::Pixels(_)));
+    if computed {
+        check(resource::ACCUMULATED, vk::FormatFeatureFlags::STORAGE_IMAGE, "cannot write in compute shaders", remedy)?;
+    }
     if usages.contains_key(&resource::SURFACE_HIT) {
         let remedy = "leave the iso-surface out, whose places rays gather there, or use another device";
         check(resource::SURFACE_HIT, blend, "cannot blend into", remedy)?;
@@ -161,7 +178,8 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
                 format: resource.format(formats),
                 usage,
                 volume: false,
-                shared: false,
+                // Both queues write it.
+                shared: computed,
             };
             Ok((resource, Image::new(device, info)?))
         })
@@ -221,18 +239,35 @@ impl Compiler<'_> {
         Ok(made)
     }
 
+    fn pixels(&mut self, step: &Step, pixels: &PixelDispatch) -> Result<CompiledPixels> {
+        let pipeline = self.resident.pipelines.compute(&pixels.shader, &pixels.constants, step.pass_name())?;
+        let set = DescriptorSet::new(self.device, step.pass_name(), &pipeline.layout, &self.bound(step))?;
+        Ok(CompiledPixels { pipeline, set })
+    }
+
     fn set(&mut self, key: &PipelineKey, step: &Step, pipeline: &GraphicsPipeline) -> Result<Arc<DescriptorSet>> {
-        use crate::vulkan::Bound;
         let by = (key.clone(), step.accesses.clone());
         if let Some(known) = self.sets.get(&by) {
             return Ok(known.clone());
         }
+        let made = DescriptorSet::new(self.device, step.pass_name(), &pipeline.layout, &self.bound(step))?;
+        let made = Arc::new(made);
+        self.sets.insert(by, made.clone());
+        Ok(made)
+    }
+
+    /// What the shader of a step binds, by the names there.
+    fn bound(&self, step: &Step) -> Vec<(&'static str, Bound<'_>)> {
         let mut bound: Vec<(&str, Bound)> = Vec::new();
-        for access in step.accesses.iter().filter(|a| matches!(a.usage, Usage::Sampled | Usage::ColorInput)) {
+        for access in step.accesses.iter() {
             let resource = access.resource;
             let layout = access.usage.layout();
             if access.usage == Usage::ColorInput {
                 bound.push((resource.name(), Bound::Input(&self.targets[&resource])));
+            } else if access.usage.is_storage_image() {
+                bound.push((resource.name(), Bound::StorageImage(&self.targets[&resource])));
+            } else if !matches!(access.usage, Usage::Sampled | Usage::ComputeRead) {
+                continue;
             } else if let Some(image) = self.image(resource) {
                 let sampler = match (&self.linear, &resource.of.kind) {
                     (Some(linear), ResourceKind::Texture(texture)) if texture.filtered => linear,
@@ -245,10 +280,7 @@ impl Compiler<'_> {
                 bound.push((resource.name(), of(buffer)));
             }
         }
-        let name = step.pass_name();
-        let made = Arc::new(DescriptorSet::new(self.device, name, &pipeline.layout, &bound)?);
-        self.sets.insert(by, made.clone());
-        Ok(made)
+        bound
     }
 
     fn image(&self, resource: Resource) -> Option<&Image> {

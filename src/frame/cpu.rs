@@ -173,13 +173,17 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         let mut pixel = Pixel { column, row, ..Pixel::default() };
         let mut hits = Coverage::default();
         for (step, count) in plan.frame().iter().zip(&mut fragments) {
-            let Work::Draw(draw) = &step.work else { continue };
-            let met = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
-            if met == 0 || !takes_part(draw, &pixel) {
-                continue;
-            }
+            let of_step = match &step.work {
+                Work::Draw(draw) => {
+                    let met = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
+                    (met > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
+                }
+                Work::Pixels(pixels) => plan.view.region.contains([column, row]).then_some(Some(pixels.twin)),
+                _ => None,
+            };
+            let Some(pass) = of_step else { continue };
             twin.enter(&mut pixel, step.section);
-            let effect = draw.twin.map_or(Effect::Silent, |pass| pass(twin, &mut pixel, step.pass));
+            let effect = pass.map_or(Effect::Silent, |pass| pass(twin, &mut pixel, step.pass));
             *count += u64::from(effect != Effect::Discarded);
             frame.ideal += u64::from(effect == Effect::Contributed);
         }

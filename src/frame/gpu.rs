@@ -17,12 +17,12 @@ use super::queries::{FrameQueries, FrameRun, Measure};
 use super::resident::Resident;
 use crate::error::Result;
 use crate::part::resource::Resource;
-use crate::part::{Draw, Group, Work};
+use crate::part::{Draw, Group, TILE, Work};
 use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Commands, CopyRegion, Device, Scope};
+use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope};
 
 /// How the rest of a frame is left out when no ray is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,12 +114,17 @@ impl GpuFrame {
         run.frame_ms = wall.elapsed().as_secs_f64() * 1e3;
         if let Some(last) = done.checked_sub(1) {
             self.accumulated_layout = self.compiled.steps[last].accumulated_layout.unwrap_or_default();
-            self.queries.collect(measure, &self.compiled.steps[..done], &mut run)?;
+            self.queries.collect(measure, &self.compiled.steps[..done], self.compiled.region, &mut run)?;
         }
         Ok(run)
     }
 
-    /// The steps that are submitted together: all of them, or up to each count of rays.
+    /// The queue that a step runs on.
+    fn queue(&self, step: &CompiledStep) -> &Queue {
+        if step.pixels.is_some() { &self.device.compute } else { &self.device.graphics }
+    }
+
+    /// The steps that are submitted together: all of them, or up to each count of rays, and to each change of queues.
     fn batches(&self) -> Vec<Range<usize>> {
         let steps = &self.compiled.steps;
         let mut ends: Vec<usize> = match self.early_end {
@@ -129,9 +134,13 @@ impl GpuFrame {
                 steps.iter().enumerate().filter_map(counts).collect()
             }
         };
-        if ends.last() != Some(&steps.len()) {
-            ends.push(steps.len());
+        if self.device.separate_compute() {
+            let changes = |i: &usize| steps[*i - 1].pixels.is_some() != steps[*i].pixels.is_some();
+            ends.extend((1..steps.len()).filter(changes));
         }
+        ends.push(steps.len());
+        ends.sort_unstable();
+        ends.dedup();
         let begins = std::iter::once(0).chain(ends.iter().copied());
         begins.zip(ends.iter().copied()).map(|(a, b)| a..b).filter(|r| !r.is_empty()).collect()
     }
@@ -140,7 +149,8 @@ impl GpuFrame {
     /// counting steps before it counted, where the host knows.
     fn run_batch(&mut self, batch: Range<usize>, measure: Measure, counted: &[u64]) -> Result<f64> {
         let begin = ThreadTime::now();
-        let mut commands = Commands::begin(&self.device, &self.device.graphics, "frame")?;
+        let queue = self.queue(&self.compiled.steps[batch.start]);
+        let mut commands = Commands::begin(&self.device, queue, "frame")?;
         if batch.start == 0 {
             self.queries.reset(&mut commands);
         }
@@ -154,7 +164,7 @@ impl GpuFrame {
             }
         }
         let recorded = commands.finish()?;
-        let submitted = self.device.graphics.submit(&recorded, &[])?;
+        let submitted = queue.submit(&recorded, &[])?;
         let ms = begin.elapsed().as_secs_f64() * 1e3;
         submitted.wait()?;
         Ok(ms)
@@ -180,6 +190,7 @@ impl GpuFrame {
             Work::Clear(resource) => {
                 commands.clear_color(&self.compiled.targets[resource]);
             }
+            Work::Pixels(_) => self.record_pixels(commands, i, ended),
             // They run before frames.
             Work::Dispatch(_) | Work::Unpack { .. } | Work::Host(_) => {}
         }
@@ -233,6 +244,22 @@ impl GpuFrame {
             commands.end_query(pool, i as u32);
         }
         commands.end_render_pass();
+    }
+
+    /// A compute shader over the pixels of the targets.
+    fn record_pixels(&self, commands: &mut Commands, i: usize, ended: bool) {
+        let compiled = &self.compiled.steps[i];
+        let Some(objects) = compiled.pixels.as_ref().filter(|_| !ended) else { return };
+        commands.bind_compute(&objects.pipeline, &objects.set);
+        let conditional = self.queries.predicates().zip(compiled.step.guard);
+        if let Some((buffer, at)) = conditional {
+            commands.begin_conditional(buffer, 4 * u64::from(at));
+        }
+        let [x, y] = self.compiled.region.size().map(|side| side.div_ceil(TILE));
+        commands.dispatch([x, y, 1]);
+        if conditional.is_some() {
+            commands.end_conditional();
+        }
     }
 
     /// Colour to depth, by way of the buffer.

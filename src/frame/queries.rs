@@ -7,7 +7,8 @@ use ash::vk;
 use super::compile::CompiledStep;
 use super::cpu::Counts;
 use crate::error::Result;
-use crate::part::Group;
+use crate::part::{Group, TILE};
+use crate::scene::Region;
 use crate::vulkan::{Buffer, BufferInfo, Commands, Device, Place, QueryKind, QueryPool, Scope};
 
 /// What a run measures, besides its wall and CPU time.
@@ -132,11 +133,17 @@ impl FrameQueries {
         );
     }
 
-    /// Reads what was measured of the steps that ran.
+    /// Reads what was measured of the steps that ran, over the pixels of `region`.
     ///
     /// # Errors
     /// What the driver reports.
-    pub fn collect(&self, measure: Measure, steps: &[CompiledStep], run: &mut FrameRun) -> Result<()> {
+    pub fn collect(
+        &self,
+        measure: Measure,
+        steps: &[CompiledStep],
+        region: Region,
+        run: &mut FrameRun,
+    ) -> Result<()> {
         let done = steps.len();
         match measure {
             Measure::Nothing => {}
@@ -149,19 +156,21 @@ impl FrameQueries {
                 run.step_ms = steps.iter().enumerate().map(each).collect();
             }
             Measure::Counts { statistics } => {
-                run.fragments = Some(self.counts(&self.occlusion, steps)?);
+                run.fragments = Some(self.counts(&self.occlusion, steps, region.pixels())?);
                 if let Some(pool) = self.statistics.as_ref().filter(|_| statistics) {
-                    run.invocations = Some(self.counts(pool, steps)?);
+                    run.invocations = Some(self.counts(pool, steps, tiled(region))?);
                 }
             }
         }
         Ok(())
     }
 
-    fn counts(&self, pool: &QueryPool, steps: &[CompiledStep]) -> Result<Counts> {
+    /// What each step counted; of compute shaders, which no such query counts, what they were `dispatched` for.
+    fn counts(&self, pool: &QueryPool, steps: &[CompiledStep], dispatched: u64) -> Result<Counts> {
         let mut counts = Counts::new(self.passes);
         for (i, compiled) in steps.iter().enumerate() {
             let fragments = match compiled.step.group {
+                _ if compiled.pixels.is_some() => dispatched,
                 Group::Main | Group::Intermediate | Group::Light | Group::Blend => {
                     pool.read(i as u32..i as u32 + 1)?[0]
                 }
@@ -171,4 +180,9 @@ impl FrameQueries {
         }
         Ok(counts)
     }
+}
+
+/// Invocations of a compute shader over all pixels of a region, those of tiles that reach beyond it included.
+fn tiled(region: Region) -> u64 {
+    region.size().into_iter().map(|side| u64::from(side.next_multiple_of(TILE))).product()
 }

@@ -62,7 +62,8 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             let before = layouts.get(&resource).copied().unwrap_or(vk::ImageLayout::UNDEFINED);
             let during = usage.layout();
             if !usage.is_attachment() {
-                if before != during {
+                // Two writes in a row, or a write after a read, wait for each other in the same layout too.
+                if before != during || usage.is_storage_image() {
                     let source = previous.map_or(Scope::default(), scope);
                     barriers.push(Barrier { resource, source, target: scope(usage), before, after: during });
                 }

@@ -4,23 +4,34 @@ use super::measured::Measured;
 use super::record::Run;
 use crate::error::{Error, Result};
 
-/// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first,
-/// and notes what was found.
+/// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first one with the same
+/// samples, and notes what was found.
 pub fn law_of_skipping(measured: &mut [Measured]) {
-    let ends_early = |one: &Measured| one.method.under_the_law();
-    let mut ended_early = measured.iter_mut().filter(|one| ends_early(one));
-    let Some(rule) = ended_early.next() else { return };
+    let mut rules: Vec<&'static str> = Vec::new();
+    for rule in 0..measured.len() {
+        let (before, rest) = measured.split_at_mut(rule + 1);
+        let rule = &before[rule];
+        let samples = rule.method.unskipped().name;
+        if !rule.method.under_the_law() || rules.contains(&samples) {
+            continue;
+        }
+        rules.push(samples);
+        let same = |one: &&mut Measured| one.method.under_the_law() && one.method.unskipped().name == samples;
+        rest.iter_mut().filter(same).for_each(|one| hold(one, rule));
+    }
+}
+
+/// Holds a run against the first one with the same samples.
+fn hold(one: &mut Measured, rule: &Measured) {
     let name = |run: &Run| run.form().map_or_else(|| run.method.clone(), |f| format!("{} ({f})", run.method));
     let rule_name = name(&rule.run);
-    for one in ended_early {
-        let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);
-        let differing = pairs.filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count() as u64;
-        one.differing = Some(differing);
-        one.run.notes.push(match differing {
-            0 => format!("the picture is that of {rule_name}, bit for bit"),
-            n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
-        });
-    }
+    let pairs = one.picture.pixels.iter().zip(&rule.picture.pixels);
+    let differing = pairs.filter(|(p, q)| p.map(f32::to_bits) != q.map(f32::to_bits)).count() as u64;
+    one.differing = Some(differing);
+    one.run.notes.push(match differing {
+        0 => format!("the picture is that of {rule_name}, bit for bit"),
+        n => format!("the picture is NOT that of {rule_name}: {n} pixels differ, and skipping must change none"),
+    });
 }
 
 /// Whether skipping changed no picture of a run whose form passed the self-check.

@@ -15,7 +15,7 @@ pub struct Measured {
     pub reference: Option<Picture>,
     /// Whether the self-check found the form right (or there is nothing to be wrong).
     pub trusted: bool,
-    /// Pixels whose bits are not those of the first run that ends rays early too; none where there is no such run.
+    /// Pixels whose bits are not those of the first run with the same samples; none where there is no such run.
     pub differing: Option<u64>,
     /// Frames of an orbit whose picture is not that of the first such run.
     pub differing_frames: Option<u64>,

@@ -55,7 +55,7 @@ pub struct Runner<'a> {
     pub(crate) name: String,
     pub(crate) resident: Option<Resident>,
     /// The twin's frame, with and without early termination.
-    references: BTreeMap<bool, CpuFrame>,
+    references: BTreeMap<&'static str, CpuFrame>,
 }
 
 /// A frame under measurement.
@@ -169,16 +169,16 @@ impl<'a> Runner<'a> {
         Ok(Entry { scene, plan, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
     }
 
-    /// The twin's frame for a method: two kinds of picture exist, with early termination and without.
+    /// The twin's frame for a method: those with the same samples share it.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
         let method = method::of(scene.settings.method.name)?;
         let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
-        match self.references.entry(method.ends_rays) {
+        match self.references.entry(method.unskipped().name) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
                 let mut scene = scene.clone();
                 scene.settings.sampling.passes = passes;
-                let rule = method::without_skipping(method);
+                let rule = method.unskipped();
                 scene.settings.method.name = rule.name();
                 let plan = plan::plan(&scene, rule.papers)?;
                 let table = self.resident.as_mut().and_then(|resident| resident.table(&scene));

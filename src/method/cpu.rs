@@ -10,6 +10,7 @@ pub const CPU: Method = Method {
     source: "KW03 §2.1",
     forms: Vec::new,
     on_device: false,
+    skips_of: Some(&RC_ERT),
     steps: RC_ERT.steps,
     ..RAY_CASTER
 };

@@ -10,6 +10,7 @@ mod rc;
 mod rc_block;
 mod rc_ert;
 mod rows;
+mod single_pass;
 
 pub use cpu::CPU;
 pub use fused::{NN_CONE_FUSED, NN_DIRECTIONAL_FUSED, NN_OMNI_FUSED, NN_OPTIMAL_FUSED};
@@ -17,6 +18,10 @@ pub use near_neighbor::{NN_CONE, NN_DIRECTIONAL, NN_OMNI, NN_OPTIMAL};
 pub use rc::RC;
 pub use rc_block::RC_BLOCK;
 pub use rc_ert::RC_ERT;
+pub use single_pass::{
+    SINGLE_PASS, SINGLE_PASS_BLOCK, SINGLE_PASS_BLOCK_COMPUTE, SINGLE_PASS_COMPUTE, SINGLE_PASS_DIRECTIONAL,
+    SINGLE_PASS_DIRECTIONAL_COMPUTE, SINGLE_PASS_OMNI, SINGLE_PASS_OMNI_COMPUTE,
+};
 
 use std::str::FromStr;
 
@@ -29,7 +34,7 @@ use crate::part::rows::Method;
 use crate::scene::settings::MethodName;
 
 /// Every method, in the order of tables and of the help.
-pub const METHODS: [&Method; 12] = [
+pub const METHODS: [&Method; 20] = [
     &RC,
     &RC_ERT,
     &RC_BLOCK,
@@ -41,6 +46,14 @@ pub const METHODS: [&Method; 12] = [
     &NN_DIRECTIONAL_FUSED,
     &NN_OPTIMAL_FUSED,
     &NN_CONE_FUSED,
+    &SINGLE_PASS,
+    &SINGLE_PASS_BLOCK,
+    &SINGLE_PASS_OMNI,
+    &SINGLE_PASS_DIRECTIONAL,
+    &SINGLE_PASS_COMPUTE,
+    &SINGLE_PASS_BLOCK_COMPUTE,
+    &SINGLE_PASS_OMNI_COMPUTE,
+    &SINGLE_PASS_DIRECTIONAL_COMPUTE,
     &CPU,
 ];
 
@@ -106,9 +119,4 @@ impl Default for MethodName {
     fn default() -> Self {
         NN_OMNI.name()
     }
-}
-
-/// The method with the same picture that skips nothing.
-pub fn without_skipping(method: &Method) -> &'static Method {
-    if method.ends_rays { &RC_ERT } else { &RC }
 }

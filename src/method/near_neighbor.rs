@@ -1,5 +1,6 @@
 //! `nn-*`: near-neighbor skipping [Thesis §5.3, §5.3.1, §5.7].
 
+use super::rc_ert::RC_ERT;
 use super::rows::{BOUNDS, RAY_CASTER, cast, culled_forms, decided, empty, unswitched};
 use crate::feature::DECISIONS;
 use crate::part::rows::{Ahead, Context, Method};
@@ -18,6 +19,7 @@ pub(super) const fn by(distance: Distance, name: &'static str, about: &'static s
         papers: BOUNDS,
         forms: culled_forms,
         ahead: Ahead::Distances(distance),
+        skips_of: Some(&RC_ERT),
         steps: |context, steps| cast(context, steps, passes),
         ..RAY_CASTER
     }

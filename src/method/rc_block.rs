@@ -1,5 +1,6 @@
 //! `rc-block`: `rc-ert` with skipping of empty 8^3 blocks [KW03 §2.3].
 
+use super::rc_ert::RC_ERT;
 use super::rows::{RAY_CASTER, cast, switched};
 use crate::feature::BLOCK_RANGES;
 use crate::part::rows::{Ahead, Context, Method};
@@ -12,6 +13,7 @@ pub const RC_BLOCK: Method = Method {
     about: "rc-ert with skipping of empty 8^3 blocks",
     source: "KW03 §2.3",
     ahead: Ahead::Blocks,
+    skips_of: Some(&RC_ERT),
     steps: |context, steps| cast(context, steps, passes),
     ..RAY_CASTER
 };

@@ -5,7 +5,7 @@ use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, 
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
-use crate::part::rows::{Ahead, Context, Method};
+use crate::part::rows::{Ahead, Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{
     alive, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel, start,
@@ -37,6 +37,8 @@ pub const RAY_CASTER: Method = Method {
     on_device: true,
     ahead: Ahead::Nothing,
     fused: false,
+    traversal: Traversal::Passes,
+    skips_of: None,
     steps: |context, steps| cast(context, steps, unswitched),
 };
 
@@ -73,7 +75,7 @@ pub fn empty(context: &Context, steps: &mut Steps) {
 
 /// A frame of rays: `passes` for each part of them, with the polygons between.
 pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Steps)) {
-    if context.passes > 0 {
+    if context.passes > 0 && !context.method.loops() {
         begin(context, steps);
     }
     let guards = peel(context, steps);
@@ -97,7 +99,9 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
         steps.extend((context.blends && part.section < context.layers).then(|| layer::layer(&part, part.section)));
     }
     steps.enter(0, None);
-    steps.extend(context.has(&ISO_SURFACE).then(|| lighting::lighting(context)));
+    // A loop lights a surface where it meets it.
+    let deferred = context.has(&ISO_SURFACE) && !context.method.loops();
+    steps.extend(deferred.then(|| lighting::lighting(context)));
     steps.extend(context.opaque.then(|| layer::opaque(context.layers)));
 }
 

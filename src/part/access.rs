@@ -25,6 +25,10 @@ pub enum Usage {
     /// Read and written by a compute shader.
     ComputeRead,
     ComputeWrite,
+    /// An image that a compute shader writes, every texel of it.
+    ImageWrite,
+    /// An image that a compute shader writes and whose texels it read before.
+    ImageUpdate,
     /// Filled by the host, through a copy where it is an image.
     Upload,
 }
@@ -50,13 +54,20 @@ impl Usage {
                 | Self::DepthAnew
                 | Self::CopyTarget
                 | Self::ComputeWrite
+                | Self::ImageWrite
+                | Self::ImageUpdate
                 | Self::Upload
         )
     }
 
     /// Whether what was there before counts for what the step does.
     pub fn reads(self) -> bool {
-        !self.writes() || self == Self::ColorInput
+        !self.writes() || matches!(self, Self::ColorInput | Self::ImageUpdate)
+    }
+
+    /// Whether a compute shader reads or writes it texel by texel, as an image and not through a sampler.
+    pub fn is_storage_image(self) -> bool {
+        matches!(self, Self::ImageWrite | Self::ImageUpdate)
     }
 
     /// Whether it is as an attachment of a render pass.
@@ -73,7 +84,7 @@ impl Usage {
     pub fn layout(self) -> vk::ImageLayout {
         match self {
             Self::Color | Self::ColorKept => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
-            Self::ColorInput => vk::ImageLayout::GENERAL,
+            Self::ColorInput | Self::ImageWrite | Self::ImageUpdate => vk::ImageLayout::GENERAL,
             Self::DepthWrite | Self::DepthAnew => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             Self::CopySource => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
@@ -104,7 +115,8 @@ impl Usage {
             Self::CopySource => (S::COPY, A::TRANSFER_READ),
             Self::CopyTarget => (S::COPY | S::CLEAR, A::TRANSFER_WRITE),
             Self::ComputeRead => (S::COMPUTE_SHADER, A::SHADER_READ),
-            Self::ComputeWrite => (S::COMPUTE_SHADER, A::SHADER_WRITE),
+            Self::ComputeWrite | Self::ImageWrite => (S::COMPUTE_SHADER, A::SHADER_WRITE),
+            Self::ImageUpdate => (S::COMPUTE_SHADER, A::SHADER_READ | A::SHADER_WRITE),
             Self::Upload => (S::HOST | S::COPY, A::HOST_WRITE | A::TRANSFER_WRITE),
         }
     }

@@ -126,6 +126,7 @@ pub enum Work {
     /// To transparent black.
     Clear(Resource),
     Dispatch(Dispatch),
+    Pixels(PixelDispatch),
     /// Texels of a build, made in a buffer, to the texture that frames read.
     Unpack {
         from: Resource,
@@ -149,7 +150,18 @@ impl Work {
         match self {
             Self::Draw(draw) => draw.shader.as_ref(),
             Self::Dispatch(dispatch) => Some(&dispatch.shader),
+            Self::Pixels(pixels) => Some(&pixels.shader),
             Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } | Self::Host(_) => None,
+        }
+    }
+
+    /// The specialization constants of its shader, by name.
+    pub fn constants(&self) -> &[Constant] {
+        match self {
+            Self::Draw(draw) => &draw.constants,
+            Self::Dispatch(dispatch) => &dispatch.constants,
+            Self::Pixels(pixels) => &pixels.constants,
+            Self::Copy { .. } | Self::Clear(_) | Self::Unpack { .. } | Self::Host(_) => &[],
         }
     }
 }
@@ -170,6 +182,19 @@ pub struct Dispatch {
     /// Cells an invocation goes through: what a slice costs.
     pub cells: u32,
 }
+
+/// A compute shader that runs for every pixel of the targets, an invocation a pixel.
+#[derive(Clone, Debug)]
+pub struct PixelDispatch {
+    pub shader: Arc<Shader>,
+    /// Specialization constants, by name.
+    pub constants: Arc<Vec<Constant>>,
+    /// The same in f64.
+    pub twin: TwinPass,
+}
+
+/// Sides of a work group of [`PixelDispatch`], in pixels.
+pub const TILE: u32 = 8;
 
 /// Drawing a geometry.
 #[derive(Clone, Debug)]

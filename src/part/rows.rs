@@ -26,6 +26,17 @@ pub enum Ahead {
     Distances(Distance),
 }
 
+/// What goes along a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Traversal {
+    /// Main passes, a segment each [KW03 §2.1].
+    Passes,
+    /// The loop of a fragment shader that holds the whole ray [Stegmaier05 §3].
+    FragmentLoop,
+    /// The same loop in a compute shader.
+    ComputeLoop,
+}
+
 /// A renderer. The list of them is `crate::method::METHODS`.
 pub struct Method {
     /// The name on the command line, in files and in reports.
@@ -50,6 +61,10 @@ pub struct Method {
     pub ahead: Ahead,
     /// Whether main passes decide where the ray goes on, so that intermediate passes after the first are not needed.
     pub fused: bool,
+    /// What goes along a ray.
+    pub traversal: Traversal,
+    /// The method with the same samples that skips nothing, whose picture it has to the bit; none for such a method itself.
+    pub skips_of: Option<&'static Method>,
     /// The steps of a frame, in order, without those that build what it reads.
     pub steps: fn(&Context, &mut Steps),
 }
@@ -97,7 +112,17 @@ impl Method {
 
     /// Whether main and intermediate passes are culled by the same bound, in which a ray is marked with the pass of its next work.
     pub fn marks_sections(&self) -> bool {
-        self.distance().is_some()
+        self.distance().is_some() && !self.loops()
+    }
+
+    /// Whether one shader holds the whole ray, so that nothing decides between main passes and nothing is culled.
+    pub fn loops(&self) -> bool {
+        self.traversal != Traversal::Passes
+    }
+
+    /// The method with the same samples that skips nothing: itself, where it skips nothing.
+    pub fn unskipped(&'static self) -> &'static Method {
+        self.skips_of.unwrap_or(self)
     }
 }
 

@@ -51,11 +51,16 @@ impl Steps {
             self.counted += 1;
         }
         share(&mut self.accesses, &mut step.accesses);
-        if let Work::Draw(draw) = &mut step.work {
-            share(&mut self.constants, &mut draw.constants);
-            if let Some(shader) = &mut draw.shader {
-                share(&mut self.shaders, shader);
+        match &mut step.work {
+            Work::Draw(draw) => {
+                share(&mut self.constants, &mut draw.constants);
+                draw.shader.iter_mut().for_each(|shader| share(&mut self.shaders, shader));
             }
+            Work::Pixels(pixels) => {
+                share(&mut self.constants, &mut pixels.constants);
+                share(&mut self.shaders, &mut pixels.shader);
+            }
+            _ => {}
         }
         self.list.push(step);
     }

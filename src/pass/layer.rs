@@ -14,10 +14,12 @@ use crate::twin::{self, TwinPass};
 /// Blends the colours of `layer` in, wherever it has some and no iso-surface is in front of it.
 pub fn layer(context: &Context, layer: u32) -> Step {
     let mut step = blended(format!("layer #{layer}"), layer, twin::layer::layer);
-    if context.has(&ISO_SURFACE) {
+    // In a loop a surface in front of it has ended the ray, whose opacity leaves nothing to be seen behind it.
+    if context.has(&ISO_SURFACE) && !context.method.loops() {
         Arc::make_mut(&mut step.accesses).push(Usage::Sampled.of(resource::SURFACE_HIT));
         if let Work::Draw(draw) = &mut step.work {
             draw.define(["SURFACE"]);
+            draw.twin = Some(twin::layer::layer_without_surface);
         }
     }
     step

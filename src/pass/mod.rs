@@ -20,5 +20,6 @@ pub mod mark_copy;
 pub mod near_neighbor;
 pub mod peel;
 mod polygons;
+pub mod single_pass;
 pub mod start;
 pub mod termination;

@@ -159,7 +159,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::environment::check(scene)?;
     feature::gradients::check(scene)?;
     let view = View::new(scene)?;
-    let passes = passes(scene, &view);
+    let passes = passes(scene, &view, method);
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
@@ -191,7 +191,10 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
 }
 
 /// N: main passes of a view.
-fn passes(scene: &Scene, view: &View) -> u32 {
+fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
+    if method.loops() {
+        return u32::from(view.longest_samples > 0);
+    }
     let sampling = &scene.settings.sampling;
     let samples = match view.longest_samples {
         longest if scene.settings.method.planner || longest == 0 => longest,
@@ -222,7 +225,11 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
         let Region { width: w, height: h, .. } = view.region;
         left_out.push(LeftOut::new("pixels of targets", format!("the box covers {w} x {h} of {width} x {height}")));
     }
-    if scene.settings.method.planner && scene.settings.sampling.passes == 0 {
+    if context.method.loops() {
+        if scene.settings.sampling.passes > 0 {
+            left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));
+        }
+    } else if scene.settings.method.planner && scene.settings.sampling.passes == 0 {
         let diagonal = whole_diagonal(scene).div_ceil(scene.settings.sampling.samples_per_pass);
         if diagonal > passes {
             let last = diagonal - 1;

@@ -51,7 +51,7 @@ fn line(step: &Step) -> String {
             ("graphics", detail)
         }
         Work::Copy { .. } | Work::Clear(_) => ("transfer", String::new()),
-        Work::Dispatch(_) | Work::Unpack { .. } => ("compute", String::new()),
+        Work::Dispatch(_) | Work::Pixels(_) | Work::Unpack { .. } => ("compute", String::new()),
         Work::Host(_) => ("host", String::new()),
     };
     let (reads, writes) = (names(Usage::reads), names(Usage::writes));

@@ -20,7 +20,7 @@ static ENVIRONMENT_INFO: ResourceInfo = ResourceInfo {
         },
         flat: true,
         filtered: false,
-        shared: |_| false,
+        shared: |_| true,
     }),
     life: Life::Transfer,
     origin: Origin::Host(texels),

@@ -20,7 +20,7 @@ static GRADIENTS_INFO: ResourceInfo = ResourceInfo {
         extent: |facts| facts.scene.field.dims(),
         flat: false,
         filtered: true,
-        shared: |_| false,
+        shared: |_| true,
     }),
     life: Life::Volume,
     origin: Origin::Built,

@@ -99,7 +99,7 @@ static PREINTEGRATED_INFO: ResourceInfo = ResourceInfo {
         },
         flat: true,
         filtered: false,
-        shared: |_| false,
+        shared: |_| true,
     }),
     life: Life::Transfer,
     origin: Origin::Host(|facts| {

@@ -42,7 +42,7 @@ static BLOCK_TABLE_INFO: ResourceInfo = ResourceInfo {
         extent: |_| [CODES, CODES, 1],
         flat: true,
         filtered: false,
-        shared: |_| false,
+        shared: |_| true,
     }),
     life: Life::Transfer,
     origin: Origin::Host(|facts| visibility_table(&Texels::of(facts.scene).shown(facts.scene)).into()),

@@ -32,6 +32,11 @@ impl Region {
         [self.width, self.height]
     }
 
+    /// Whether a pixel, column and row, is in it.
+    pub fn contains(self, [column, row]: [u32; 2]) -> bool {
+        self.columns().contains(&column) && self.rows().contains(&row)
+    }
+
     pub fn columns(self) -> std::ops::Range<u32> {
         self.x..self.x + self.width
     }

@@ -9,9 +9,13 @@ use crate::scene::settings::{Last, PartialSegments};
 const SURFACE_ROUNDING: f64 = 4e-7;
 
 /// Blends the colour of a transparent layer under what is in front of it, unless that is an iso-surface.
+pub fn layer_without_surface(twin: &Twin, pixel: &mut Pixel, number: u32) -> Effect {
+    if pixel.hit[3] == 0.0 { layer(twin, pixel, number) } else { Effect::Discarded }
+}
+
+/// Blends the colour of a transparent layer under what is in front of it.
 pub fn layer(_: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
-    let surface = pixel.layers.get(layer as usize).copied().filter(|_| pixel.hit[3] == 0.0);
-    let Some(surface) = surface else { return Effect::Discarded };
+    let Some(surface) = pixel.layers.get(layer as usize) else { return Effect::Discarded };
     pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
@@ -74,7 +78,14 @@ impl Twin<'_> {
     pub fn enter(&self, pixel: &mut Pixel, section: u32) {
         let known = pixel.section == section && section > 0;
         pixel.section = section;
-        if known || pixel.layers.is_empty() && pixel.opaque.is_none() && pixel.begin.is_none() {
+        if !known {
+            self.judge_cuts(pixel);
+        }
+    }
+
+    /// Sees whether f32 can tell the samples of the part of the ray that is drawn.
+    pub fn judge_cuts(&self, pixel: &mut Pixel) {
+        if pixel.layers.is_empty() && pixel.opaque.is_none() && pixel.begin.is_none() {
             return;
         }
         let (steps, offset) = (self.steps(pixel), self.scene.settings.sampling.offset.steps());

@@ -17,6 +17,7 @@ pub mod phong;
 pub mod samples;
 pub mod section;
 pub mod segment;
+pub mod single_pass;
 pub mod start;
 pub mod surface;
 pub mod termination;

@@ -3,11 +3,15 @@
 
 use super::section::{free_samples, partial_depth, section_depth};
 use super::{DEAD, Effect, Pixel, Twin};
+use crate::structure::blocks::BLOCK;
 use crate::structure::grid::{FAR, octant_of};
 
 /// What f32 may take from a way or add to it, relative: a product, a sum and a quotient. Less than what makes up for the
 /// quotient of a whole number.
 const WAY_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+
+/// As in `glsl/shared/visible_block.glsl`, in steps.
+const BOUNDARY: f64 = 1e-3;
 
 impl Twin<'_> {
     /// The section in which a ray that arrives at `section` next has work; N, which is none, when it is gone.
@@ -39,6 +43,21 @@ impl Twin<'_> {
             i += free;
         }
         next(i)
+    }
+
+    /// Samples from `i` on that show nothing by what the loop of a single pass leaps with; 0 where it takes the sample.
+    pub(super) fn free_samples_from(&self, pixel: &Pixel, i: u32) -> u32 {
+        let cell = self.scene.field.cell_at(self.voxel(self.sample_position(pixel, i)));
+        match self.blocks {
+            None => self.free_from(pixel, i, cell)[0],
+            Some(blocks) if blocks.visible(cell) => 0,
+            Some(_) => {
+                let [least, _] = self.steps_inside(pixel, i, cell, BLOCK);
+                let others = (least - BOUNDARY).floor().max(0.0).min(f64::from(self.sample_count(pixel))) as u32;
+                // What lies between the last of them and the next sample need not be free.
+                others + u32::from(!self.scene.spans())
+            }
+        }
     }
 
     /// Samples from `i` on, which lies in `cell`, that show nothing: the least and the most that f32 may find.

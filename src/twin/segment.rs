@@ -1,4 +1,4 @@
-//! Twin of `glsl/shared/segment.glsl`: M samples of a ray, front to back [KW03 §2.1].
+//! Twin of `glsl/shared/shade.glsl` and `glsl/shared/segment.glsl`: M samples of a ray, front to back [KW03 §2.1].
 
 use glam::DVec3;
 
@@ -159,6 +159,15 @@ impl Twin<'_> {
         VALUE_ROUNDING * value.abs() + (PLACE_ROUNDING + more) * spread
     }
 
+    /// What sample `i` brings to its ray, whatever is shown.
+    pub(super) fn sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        match (&self.projection.values, self.table) {
+            (Some(values), _) => self.value_sample(values, pixel, i),
+            (None, Some(table)) => self.shade_span(table, pixel, i),
+            (None, None) => self.shade_sample(pixel, i),
+        }
+    }
+
     /// What the ray's segment for main pass `pass` brings to the pixel, and whether it took a sample that shows.
     pub fn segment_color(&self, pixel: &mut Pixel, pass: u32) -> ([f64; 4], Effect) {
         if self.scene.surface.is_some() {
@@ -168,11 +177,7 @@ impl Twin<'_> {
         let mut segment = self.no_sample();
         let mut effect = Effect::Silent;
         for i in first..end {
-            let sample = match (&self.projection.values, self.table) {
-                (Some(values), _) => self.value_sample(values, pixel, i),
-                (None, Some(table)) => self.shade_span(table, pixel, i),
-                (None, None) => self.shade_sample(pixel, i),
-            };
+            let sample = self.sample(pixel, i);
             if !self.projection.shows_values() && sample[3] > 0.0 {
                 effect = Effect::Contributed;
             }

@@ -24,6 +24,11 @@ impl Twin<'_> {
     /// Where the segment of main pass `pass` is on a surface first, as the shader writes it, and whether it is the first of its ray.
     pub(super) fn surface_segment(&self, pixel: &mut Pixel, pass: u32) -> ([f64; 4], Effect) {
         let (first, end) = self.segment(pixel, pass);
+        self.surface_between(pixel, first, end)
+    }
+
+    /// Where the steps after the samples from `first` to one before `end` are on a surface first, as [`Twin::surface_segment`] has it.
+    pub(super) fn surface_between(&self, pixel: &mut Pixel, first: u32, end: u32) -> ([f64; 4], Effect) {
         let met = |[front, back]: [f64; 2]| {
             let stretch = [front, back].map(|steps| f64::from(steps as f32));
             [stretch[0], stretch[1], 0.0, 1.0]

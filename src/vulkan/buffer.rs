@@ -51,7 +51,14 @@ impl Buffer {
     /// A size of 0 or beyond the device's limits, too little memory.
     pub fn new(device: &Arc<Device>, info: BufferInfo) -> Result<Self> {
         check_limits(device, &info)?;
+        let families = [device.graphics.family, device.compute.family];
         let create = vk::BufferCreateInfo::default().size(info.size).usage(info.usage);
+        // Frames and builds of both queues read them; for buffers that costs nothing.
+        let create = if families[0] == families[1] {
+            create
+        } else {
+            create.sharing_mode(vk::SharingMode::CONCURRENT).queue_family_indices(&families)
+        };
         // SAFETY: the limits were checked; on every error what was made so far is freed, unused.
         let inner = unsafe {
             let handle = device.check("vkCreateBuffer", &info.name, device.raw.create_buffer(&create, None))?;

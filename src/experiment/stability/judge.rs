@@ -1,5 +1,8 @@
 //! Pictures of a case against what it must give.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
 use serde::{Deserialize, Serialize};
 
 use super::case::{Expect, StabilityCase, beer};
@@ -76,8 +79,9 @@ pub fn judge(case: &StabilityCase, methods: &[MethodName], integrator: &mut dyn 
     let scene = case.scene();
     integrator.begin();
     let mut outcomes = Vec::new();
-    let mut law: Option<(MethodName, Vec<[f64; 4]>)> = None;
-    let mut rules: [Option<ExpectedPicture>; 2] = [None, None];
+    // By the method with the same samples that skips nothing.
+    let mut law: BTreeMap<&str, (MethodName, Vec<[f64; 4]>)> = BTreeMap::new();
+    let mut rules: BTreeMap<&str, ExpectedPicture> = BTreeMap::new();
     for &method in methods.iter().filter(wanted) {
         let blank = Outcome {
             method: method.name().to_owned(),
@@ -109,15 +113,17 @@ pub fn judge(case: &StabilityCase, methods: &[MethodName], integrator: &mut dyn 
             }
             (expect, Ok(Ok(rendered))) => {
                 let Ok(scene) = &scene else { continue };
-                let ends = method::of(method)?.ends_rays;
-                let rule = match &mut rules[usize::from(ends)] {
-                    Some(rule) => rule,
-                    none => none.insert(rule(case, expect, scene, method, integrator.sub_pixel_bits())?),
+                let samples = method::of(method)?.unskipped().name;
+                let rule = match rules.entry(samples) {
+                    Entry::Occupied(made) => made.into_mut(),
+                    Entry::Vacant(place) => {
+                        place.insert(rule(case, expect, scene, method, integrator.sub_pixel_bits())?)
+                    }
                 };
                 let mut outcome = compared(case, &rendered, rule, blank.clone());
                 // In f64 it is the same to rounding only.
                 if method::of(method)?.under_the_law() && outcome.verdict == StabilityVerdict::Right {
-                    let (first, pixels) = law.get_or_insert_with(|| (method, rendered.pixels.clone()));
+                    let (first, pixels) = law.entry(samples).or_insert_with(|| (method, rendered.pixels.clone()));
                     let bits = |pixels: &[[f64; 4]]| pixels.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
                     if bits(pixels) != bits(&rendered.pixels) {
                         outcome.verdict = StabilityVerdict::Wrong;
@@ -205,7 +211,7 @@ fn rule(
 /// The same samples in f64.
 fn twin(scene: &Scene, method: MethodName, sub_pixel_bits: u32) -> Result<CpuFrame> {
     let mut scene = scene.clone();
-    let rule = method::without_skipping(method::of(method)?);
+    let rule = method::of(method)?.unskipped();
     scene.settings.method.name = rule.name();
     let plan = plan::plan(&scene, method::papers_form(scene.settings.method.name))?;
     Ok(cpu::run(&scene, &plan, &Structures::default(), sub_pixel_bits))

@@ -8,7 +8,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::projection::{self, Ends};
@@ -72,10 +71,10 @@ fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], num
         }
         // What a format of the depth buffer may get wrong, it gets wrong in any view.
         let depths = if i == 0 { there(device, &scene, depths) } else { vec![scene.settings.method.depth] };
-        // What has to come out, by whether rays end.
+        // What has to come out, by the method with the same samples that skips nothing.
         let mut rules = BTreeMap::new();
         for method in matrix_scenes::methods(&scene) {
-            let rule: &Shot = rules.entry(method.ends_rays).or_insert_with(|| runs.rule(&scene, method));
+            let rule: &Shot = rules.entry(method.unskipped().name).or_insert_with(|| runs.rule(&scene, method));
             assert!(rule.picture.iter().any(|pixel| pixel[3] > 0.0), "{view}: nothing shows");
             let held = runs.every_form(&scene, method, &depths, rule);
             held.unwrap_or_else(|what| panic!("{}, {view}: {what}", method.name));
@@ -97,8 +96,8 @@ struct Runs<'a> {
 
 impl Runs<'_> {
     /// The frame without skipping whose picture the method's has to be.
-    fn rule(&mut self, scene: &Scene, method: &Method) -> Shot {
-        let rule = method::without_skipping(method);
+    fn rule(&mut self, scene: &Scene, method: &'static Method) -> Shot {
+        let rule = method.unskipped();
         // The last form of each method is the one every device has.
         let form = forms(self.device, rule.name()).pop().flatten();
         self.stage.shoot(&matrix_scenes::by(scene, rule), form)

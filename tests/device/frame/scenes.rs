@@ -104,7 +104,10 @@ fn number_of(scene: &Scene) -> usize {
 
 /// Methods of a device, the first of those that differ in no more than the distances they read.
 pub fn shapes() -> Vec<&'static Method> {
-    let shape = |method: &Method| (method.ends_rays, method.skips_blocks(), method.marks_sections(), method.fused);
+    let shape = |method: &Method| {
+        let looks_up = method.distance().is_some();
+        (method.ends_rays, method.skips_blocks(), looks_up, method.fused, method.traversal)
+    };
     let mut shapes: Vec<&Method> = Vec::new();
     for method in METHODS.into_iter().filter(|method| method.on_device) {
         if shapes.iter().all(|one| shape(one) != shape(method)) {

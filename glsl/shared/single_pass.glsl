@@ -1,0 +1,83 @@
+// The whole ray in one loop [Stegmaier05 §3, §5]: samples are taken until the ray leaves the volume or needs no more of them.
+// Twin: src/twin/single_pass.rs. Needs what shade.glsl needs, and that; with SURFACE surface_color.glsl.
+//
+// LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing.
+//
+// Departures: 1. positions come from the index, where the paper adds steps up. 2. The end of the ray is drawn, unless `last = "none"`
+// asks for the paper's way, which stops before the volume is left. 3. T is tested after every sample; multi-pass ray casters test it
+// between passes only.
+
+// What a ray holds before its first sample.
+vec4 begin_ray(Ray ray) {
+#if defined(VALUES) && !defined(SURFACE)
+    // A ray so short that it takes no sample holds what no sample can change, as in start.frag.
+    bool least = PROJECTION == MINIP && ray.samples == 0u;
+    return vec4(least ? vec3(x_of(frame.end)) : no_sample().rgb, 1.0);
+#else
+    return vec4(0.0);
+#endif
+}
+
+// Whether a ray that holds so much takes no further sample.
+bool is_done(vec4 held) {
+#ifdef ENDLESS
+    return false;
+#else
+    return ended(held, 0.0);
+#endif
+}
+
+#ifdef SURFACE
+// Joins the step after sample `i` with what the ray holds: the surface that it meets there, if any, which ends the ray.
+bool take_step(Ray ray, uint i, inout vec4 held) {
+    vec2 stretch = stretch_after(ray, i);
+    if (!on_surface(ray, stretch.y)) {
+        return false;
+    }
+    held = joined(held, surface_color(ray, stretch));
+    return true;
+}
+#endif
+
+// Samples of the ray from its first one on, joined with what it holds already.
+vec4 cast_ray(Ray ray, vec4 held) {
+    uint i = first_sample(ray);
+    bool done = is_done(held);
+#ifdef SURFACE
+    // A ray that begins on a surface, or within, meets it there.
+    if (!done && i < ray.samples) {
+        float begin = stretch_after(ray, i).x;
+        if (on_surface(ray, begin)) {
+            held = joined(held, surface_color(ray, vec2(begin)));
+            done = true;
+        }
+    }
+#endif
+    while (!done && i < ray.samples) {
+#if defined(LEAP_BLOCKS) || defined(LEAP_DISTANCES)
+        uint free = free_from(ray, i);
+        if (free > 0u) {
+            i += free;
+            continue;
+        }
+        uint end = min(i + SAMPLES_PER_PASS, ray.samples);
+#else
+        uint end = ray.samples;
+#endif
+#ifdef PREINTEGRATED
+        float front = node_at(ray, i);
+#endif
+        for (; !done && i < end; ++i) {
+#if defined(SURFACE)
+            done = take_step(ray, i, held);
+#elif defined(PREINTEGRATED)
+            held = joined(held, shade_span(ray, i, front));
+            done = is_done(held);
+#else
+            held = joined(held, shade_sample(ray, i));
+            done = is_done(held);
+#endif
+        }
+    }
+    return held;
+}

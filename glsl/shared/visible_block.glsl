@@ -1,0 +1,43 @@
+// Which blocks show something [KW03 §2.3]. Twin: src/twin/block_skip.rs. Needs frame.glsl, samples.glsl and block.glsl.
+
+layout(set = 0, binding = 8, std430) readonly buffer CellRange {
+    vec2 ranges[];
+} cell_range;
+// CT [KW03 §2.3]: whether anything shows between a minimum and a maximum.
+layout(set = 0, binding = 9) uniform usampler2D block_table;
+
+// A sample stands for all values up to the next one (shared/preintegrated.glsl).
+layout(constant_id = 12) const bool SPANS = false;
+
+// A sample this near (in steps) beyond the face of a block is asked for by itself: f32 cannot tell its side.
+const float BOUNDARY = 1e-3;
+
+bool block_visible(ivec3 block) {
+    ivec3 blocks = block_count(ivec3(frame.dims.xyz));
+    vec2 range = cell_range.ranges[(block.z * blocks.y + block.y) * blocks.x + block.x];
+    return texelFetch(block_table, range_codes(range), 0).r != 0u;
+}
+
+// Whether anything shows in the blocks from that of sample `i` to that of the next sample, or of the exit point, with
+// those beside the way, whose corners a ray may cut off.
+bool way_visible(Ray ray, uint i) {
+    ivec3 front = cell_of(place_at(ray, steps_to(i))) / BLOCK;
+    ivec3 back = cell_of(place_at(ray, min(steps_to(i + 1u), ray.steps))) / BLOCK;
+    ivec3 low = min(front, back);
+    ivec3 high = max(front, back);
+    for (int z = low.z; z <= high.z; ++z) {
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
+                if (block_visible(ivec3(x, y, z))) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+// Samples after the one at `place`, in `block`, that lie in the same block, as far as f32 can tell.
+uint samples_in_block(Ray ray, Place place, ivec3 block) {
+    return uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0));
+}

@@ -1,0 +1,75 @@
+// Single-pass ray casting [Stegmaier05 §3, §5] as a compute shader: a ray an invocation, in tiles of 8 x 8 pixels.
+//
+// GOES_ON: the ray goes on behind a layer of polygons with what RES holds. RGBA32F, RGBA16F, RGBA8: the format of RES.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@takes RGBA32F | RGBA16F | RGBA8
+//@takes [LEAP_BLOCKS | LEAP_DISTANCES], [ENDLESS], [GOES_ON], [HOLES | PREINTEGRATED], [PLANES]
+//@takes [VALUES], [SURFACE], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [GRADIENTS], [ENVIRONMENT]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED]
+
+#define COMPUTE
+#define OWN_RAYS
+
+#include "shared/frame.glsl"
+#include "shared/double_float.glsl"
+#include "shared/ray.glsl"
+#include "shared/pixel.glsl"
+#include "shared/layer.glsl"
+#include "shared/samples.glsl"
+#include "shared/volume.glsl"
+#include "shared/opacity.glsl"
+#include "shared/projection.glsl"
+#ifdef PREINTEGRATED
+#include "shared/preintegrated.glsl"
+#elif !defined(VALUES)
+#include "shared/transfer.glsl"
+#endif
+#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION)
+#include "shared/gradient.glsl"
+#endif
+#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION) && !defined(SHOWS_NORMAL)
+#include "shared/phong.glsl"
+#endif
+#ifdef ENVIRONMENT
+#include "shared/environment.glsl"
+#endif
+#ifdef SURFACE
+#include "shared/surface.glsl"
+#include "shared/root.glsl"
+#include "shared/surface_color.glsl"
+#endif
+#ifdef LEAP_DISTANCES
+#include "shared/distance.glsl"
+#elif defined(LEAP_BLOCKS)
+#include "shared/block.glsl"
+#include "shared/visible_block.glsl"
+#endif
+#include "shared/leap.glsl"
+#include "shared/shade.glsl"
+#include "shared/single_pass.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#if defined(RGBA32F)
+layout(set = 0, binding = 7, rgba32f) uniform image2D accumulated;
+#elif defined(RGBA16F)
+layout(set = 0, binding = 7, rgba16f) uniform image2D accumulated;
+#else
+layout(set = 0, binding = 7, rgba8) uniform image2D accumulated;
+#endif
+
+void main() {
+    ivec2 pixel = this_pixel();
+    if (any(greaterThanEqual(pixel, imageSize(accumulated)))) {
+        return;
+    }
+    Ray ray = load_ray();
+#ifdef GOES_ON
+    vec4 held = imageLoad(accumulated, pixel);
+#else
+    // Nothing is drawn where the ray misses the volume, whose box draws no pixel there.
+    vec4 held = ray.steps > 0.0 ? begin_ray(ray) : vec4(0.0);
+#endif
+    imageStore(accumulated, pixel, cast_ray(ray, held));
+}

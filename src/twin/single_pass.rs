@@ -1,0 +1,70 @@
+//! Twin of `glsl/single_pass.frag` and `glsl/single_pass.comp`: the whole ray in one loop [Stegmaier05 §3, §5].
+//!
+//! Leaps are those of `glsl/shared/leap.glsl`. They leave out samples that show nothing, so that it does not matter to the pixel
+//! how far f32 leaps.
+
+use super::{Effect, Pixel, Twin, direction, entry, start};
+
+/// Joins all samples of the part of the ray that is drawn with what the pixel has already.
+pub fn single_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    entry::entry(twin, pixel, pass);
+    direction::direction(twin, pixel, pass);
+    // Until now nobody knew how long the ray is.
+    twin.judge_cuts(pixel);
+    if pixel.section == 0 && twin.projection.shows_values() {
+        start::start(twin, pixel, pass);
+    }
+    let before = pixel.accumulated;
+    let effect = twin.cast_ray(pixel);
+    match twin.projection.shows_values() && pixel.accumulated != before {
+        true => Effect::Contributed,
+        false => effect,
+    }
+}
+
+/// The same for a pixel of which no box says whether its ray meets the volume.
+pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
+    let direction = twin.rays.direction(pixel.column, pixel.row);
+    match twin.scene.interval(&twin.rays, direction) {
+        Some(_) => single_pass(twin, pixel, pass),
+        None => Effect::Silent,
+    }
+}
+
+impl Twin<'_> {
+    fn cast_ray(&self, pixel: &mut Pixel) -> Effect {
+        if self.scene.surface.is_some() {
+            return self.surface_on_ray(pixel);
+        }
+        let (first, end) = self.samples_of_part(pixel);
+        let mut effect = Effect::Silent;
+        let mut i = first;
+        while i < end && !self.saturated(pixel) {
+            let free = self.free_samples_from(pixel, i);
+            if free > 0 {
+                i += free;
+                continue;
+            }
+            let sample = self.sample(pixel, i);
+            if !self.projection.shows_values() && sample[3] > 0.0 {
+                effect = Effect::Contributed;
+            }
+            pixel.accumulated = self.projection.blend.apply(pixel.accumulated, sample);
+            i += 1;
+        }
+        effect
+    }
+
+    /// The first surface on the part of the ray that is drawn, lit where it is met.
+    fn surface_on_ray(&self, pixel: &mut Pixel) -> Effect {
+        // A surface in front has ended the ray.
+        if pixel.hit[3] > 0.0 {
+            return Effect::Silent;
+        }
+        let (first, end) = self.samples_of_part(pixel);
+        let (hit, effect) = self.surface_between(pixel, first, end);
+        pixel.hit = hit;
+        super::lighting::lighting(self, pixel, 0);
+        effect
+    }
+}
