@@ -6,11 +6,11 @@ mod asked;
 #[path = "glsl/module.rs"]
 mod module;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 use depthleap::glsl::compile::compile;
 use depthleap::glsl::{self, Shader as Source};
-use depthleap::part::Work;
 use depthleap::vulkan::{ShaderModule, vk};
 use module::{compiled, module};
 use rayon::prelude::*;
@@ -21,13 +21,8 @@ fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
     let mut asked = BTreeSet::new();
     for (name, plan) in asked::plans() {
         for step in &plan.steps {
-            let (shader, constants) = match &step.work {
-                Work::Draw(draw) => (draw.shader.as_ref(), draw.constants.as_slice()),
-                Work::Dispatch(dispatch) => (Some(&dispatch.shader), dispatch.constants.as_slice()),
-                _ => continue,
-            };
-            for (constant, _) in constants {
-                let file = shader.map_or("", |shader| shader.file);
+            for (constant, _) in step.work.constants() {
+                let file = step.work.shader().map_or("", |shader| shader.file);
                 if asked.insert((file, *constant)) {
                     assert!(glsl::declares(file, constant).unwrap(), "{constant} of {} in {name}", step.name);
                 }
@@ -40,13 +35,31 @@ fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
     assert!(!glsl::declares("termination.frag", "EXIT_LOOKAHEAD").unwrap());
 }
 
+/// All shaders that may be asked for, each compiled once for all tests, by the compiler itself: it has warnings that a module kept on
+/// disk has not.
+fn fresh() -> &'static [(Source, ShaderModule)] {
+    static MODULES: OnceLock<Vec<(Source, ShaderModule)>> = OnceLock::new();
+    MODULES.get_or_init(|| {
+        let asked = asked::shaders(&asked::plans());
+        let fresh = |shader: Source| {
+            let text = glsl::built_in().text(shader.file).unwrap();
+            let defines: Vec<&str> = shader.defines.iter().copied().collect();
+            let made = compile(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
+            assert_eq!(made.warnings, "", "{shader}");
+            let module = ShaderModule::new(&shader.to_string(), &made.words).unwrap();
+            (shader, module)
+        };
+        asked.into_par_iter().map(fresh).collect()
+    })
+}
+
 /// A constant that a module has, its text declares.
 #[test]
 fn declared_constants_are_those_of_the_modules() {
     let mut seen = 0;
-    for shader in asked::shaders(&asked::plans()) {
-        for (constant, _) in compiled(&shader).spec_constants {
-            assert!(glsl::declares(shader.file, &constant).unwrap(), "{constant} of {shader}");
+    for (shader, module) in fresh() {
+        for (constant, _) in &module.spec_constants {
+            assert!(glsl::declares(shader.file, constant).unwrap(), "{constant} of {shader}");
             seen += 1;
         }
     }
@@ -133,18 +146,9 @@ fn contradictions_are_seen() {
 /// All that the program may ever compile compiles without a warning, can be read, and does not contradict itself.
 #[test]
 fn every_shader_that_is_asked_for_is_sound() {
-    let asked = asked::shaders(&asked::plans());
-    // By the compiler itself, which has warnings that a module kept on disk has not.
-    let fresh = |shader: &Source| {
-        let text = glsl::built_in().text(shader.file).unwrap();
-        let defines: Vec<&str> = shader.defines.iter().copied().collect();
-        let made = compile(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
-        assert_eq!(made.warnings, "", "{shader}");
-        ShaderModule::new(&shader.to_string(), &made.words).unwrap()
-    };
-    let modules: Vec<ShaderModule> = asked.par_iter().map(fresh).collect();
-    for (shader, module) in asked.iter().zip(modules) {
-        assert_eq!(contradiction(shader, &depth(&module)), None, "{shader}");
+    let asked = fresh();
+    for (shader, module) in asked {
+        assert_eq!(contradiction(shader, &depth(module)), None, "{shader}");
         let stage = match shader.file.rsplit_once('.') {
             Some((_, "vert")) => vk::ShaderStageFlags::VERTEX,
             Some((_, "frag")) => vk::ShaderStageFlags::FRAGMENT,
@@ -158,12 +162,15 @@ fn every_shader_that_is_asked_for_is_sound() {
         assert_eq!(numbers.len(), module.bindings.len(), "{shader}");
     }
     // Every file is asked for, and every define that any file takes.
-    let files: BTreeSet<String> = asked.iter().map(|shader| shader.file.to_owned()).collect();
+    let mut files: BTreeMap<String, usize> = BTreeMap::new();
+    asked.iter().for_each(|(shader, _)| *files.entry(shader.file.to_owned()).or_default() += 1);
+    println!("{} shaders: {files:?}", asked.len());
+    let files: BTreeSet<String> = files.into_keys().collect();
     assert_eq!(files, glsl::built_in().shaders().unwrap().into_iter().collect());
     for file in files {
         let text = glsl::built_in().text(&file).unwrap();
         let taken = glsl::takes::Takes::of(&text).unwrap();
-        let used = |define: &str| asked.iter().any(|one| one.file == file && one.defines.contains(define));
+        let used = |define: &str| asked.iter().any(|(one, _)| one.file == file && one.defines.contains(define));
         let idle: Vec<&str> = taken.defines().filter(|define| !used(define)).collect();
         assert_eq!(idle, [""; 0], "{file}");
     }

@@ -105,6 +105,11 @@ fn the_first_scene_has_work_to_skip() {
         for method in scenes::methods(&scene) {
             let (rule, own) = (main_fragments(&scene, method.unskipped()), main_fragments(&scene, method));
             let said = format!("{}, {view}: {own} main fragments, {rule} without skipping, {all} in all", method.name);
+            if method.loops() {
+                // A fragment holds the whole ray.
+                assert_eq!(own, rule, "{said}");
+                continue;
+            }
             assert!(method.ends_rays == (rule < all), "{said}");
             assert!(method.looks_ahead() == (own < rule), "{said}");
         }

@@ -18,9 +18,12 @@ vec4 begin_ray(Ray ray) {
 #endif
 }
 
-// Whether a ray that holds so much takes no further sample.
+// Whether a ray that holds so much takes no further sample. One that looks for a surface goes on to it behind whatever lets
+// something through, as in the passes of main_pass.frag.
 bool is_done(vec4 held) {
-#ifdef ENDLESS
+#if defined(SURFACE)
+    return held.a >= 1.0;
+#elif defined(ENDLESS)
     return false;
 #else
     return ended(held, 0.0);

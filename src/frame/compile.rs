@@ -20,7 +20,8 @@ use crate::scene::Region;
 use crate::scene::Scene;
 use crate::scene::settings::{Filter, Formats};
 use crate::vulkan::{
-    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass, RenderPassInfo, Sampler,
+    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass,
+    RenderPassInfo, Sampler,
 };
 
 /// The objects of a frame.

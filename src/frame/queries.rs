@@ -137,13 +137,7 @@ impl FrameQueries {
     ///
     /// # Errors
     /// What the driver reports.
-    pub fn collect(
-        &self,
-        measure: Measure,
-        steps: &[CompiledStep],
-        region: Region,
-        run: &mut FrameRun,
-    ) -> Result<()> {
+    pub fn collect(&self, measure: Measure, steps: &[CompiledStep], region: Region, run: &mut FrameRun) -> Result<()> {
         let done = steps.len();
         match measure {
             Measure::Nothing => {}
@@ -168,9 +162,20 @@ impl FrameQueries {
     /// What each step counted; of compute shaders, which no such query counts, what they were `dispatched` for.
     fn counts(&self, pool: &QueryPool, steps: &[CompiledStep], dispatched: u64) -> Result<Counts> {
         let mut counts = Counts::new(self.passes);
+        let mut counted = Vec::new();
         for (i, compiled) in steps.iter().enumerate() {
+            if compiled.step.group.counts() {
+                counted.push(self.fragments(i)?);
+            }
+            let left_out = compiled.step.guard.is_some_and(|guard| counted.get(guard as usize) == Some(&0));
             let fragments = match compiled.step.group {
-                _ if compiled.pixels.is_some() => dispatched,
+                _ if compiled.pixels.is_some() => {
+                    if left_out {
+                        0
+                    } else {
+                        dispatched
+                    }
+                }
                 Group::Main | Group::Intermediate | Group::Light | Group::Blend => {
                     pool.read(i as u32..i as u32 + 1)?[0]
                 }

@@ -76,6 +76,9 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             targets.push(resource);
             layouts.insert(resource, leave);
             after.extend(following.map(|a| scope(a.usage)));
+            // Those that read it as well before it is written again may do so in another stage.
+            let uses = steps[i + 1..].iter().flat_map(|s| s.accesses.iter()).filter(|a| a.resource == resource);
+            after.extend(uses.take_while(|a| !a.usage.writes()).map(|a| scope(a.usage)));
             last.insert(resource, usage);
         }
         let render_pass = matches!(step.work, crate::part::Work::Draw(_)).then(|| {

@@ -11,7 +11,8 @@ pub const AGAINST: &str = "rc-ert";
 /// one fragment a pixel, whatever it skips, which is not what `rc-ert` counts.
 pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
     let rules: Vec<Run> = runs.iter().filter(|run| run.method == AGAINST).map(|run| (**run).clone()).collect();
-    let compares = |run: &Run| method::METHODS.iter().any(|row| row.name == run.method && row.on_device && !row.loops());
+    let compares =
+        |run: &Run| method::METHODS.iter().any(|row| row.name == run.method && row.on_device && !row.loops());
     for run in runs.iter_mut().filter(|run| run.method != AGAINST && compares(run)) {
         let same = |rule: &&Run| (&rule.cull, &rule.mark) == (&run.cull, &run.mark);
         let Some(rule) = rules.iter().find(same).or_else(|| rules.first()) else { continue };

@@ -99,6 +99,14 @@ pub fn cases() -> Vec<Case> {
         ("nn-directional+fused_ztest_copy", method::NN_DIRECTIONAL_FUSED.name(), form(Ztest, Mark::Copy), false),
         ("nn-optimal+fused_ztest_copy", method::NN_OPTIMAL_FUSED.name(), form(Ztest, Mark::Copy), false),
         ("nn-cone+fused_ztest_copy", method::NN_CONE_FUSED.name(), form(Ztest, Mark::Copy), false),
+        ("single-pass", method::SINGLE_PASS.name(), None, false),
+        ("single-pass-block", method::SINGLE_PASS_BLOCK.name(), None, false),
+        ("single-pass-omni", method::SINGLE_PASS_OMNI.name(), None, false),
+        ("single-pass-directional", method::SINGLE_PASS_DIRECTIONAL.name(), None, false),
+        ("single-pass+compute", method::SINGLE_PASS_COMPUTE.name(), None, false),
+        ("single-pass-block+compute", method::SINGLE_PASS_BLOCK_COMPUTE.name(), None, false),
+        ("single-pass-omni+compute", method::SINGLE_PASS_OMNI_COMPUTE.name(), None, false),
+        ("single-pass-directional+compute", method::SINGLE_PASS_DIRECTIONAL_COMPUTE.name(), None, false),
     ];
     let mut cases: Vec<Case> = rows
         .map(|(name, method, form, block_first)| {
@@ -117,6 +125,8 @@ pub fn cases() -> Vec<Case> {
         ("rc-ert_layers", method::RC_ERT.name(), form(Ztest, Fragdepth)),
         ("nn-omni_bounds_fragdepth_layers", method::NN_OMNI.name(), form(Bounds, Fragdepth)),
         ("nn-omni+fused_ztest_copy_layers", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy)),
+        ("single-pass_layers", method::SINGLE_PASS.name(), None),
+        ("single-pass+compute_layers", method::SINGLE_PASS_COMPUTE.name(), None),
     ] {
         cases.push(Case { name, plan: layered(method, form) });
     }
@@ -132,6 +142,7 @@ pub fn cases() -> Vec<Case> {
     for (name, method, form) in [
         ("rc-ert_surface", method::RC_ERT.name(), form(Ztest, Fragdepth)),
         ("nn-omni_bounds_fragdepth_surface", method::NN_OMNI.name(), form(Bounds, Fragdepth)),
+        ("single-pass-omni_surface", method::SINGLE_PASS_OMNI.name(), None),
     ] {
         cases.push(Case { name, plan: on_surface(method, form) });
     }

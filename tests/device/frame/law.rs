@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use depthleap::frame::Verdict;
-use depthleap::method;
+use depthleap::method::{self, METHODS, SINGLE_PASS, SINGLE_PASS_COMPUTE};
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
@@ -169,6 +169,21 @@ fn law(device: &Arc<Device>, scene: &Scene, number: usize) {
             let name = format!("{}, {turn}, {}, {}", method.name, form.map_or_else(String::new, Form::name), view.0);
             assert_eq!(differs, 0, "{name}: {differs} pixels are not those of rc-ert");
         }
+        leaps(&mut stage, &scene, [&SINGLE_PASS, &SINGLE_PASS_COMPUTE][(i + number) % 2], change);
+    }
+}
+
+/// Loops that leap have the picture of the one that does not, with one way to look ahead.
+fn leaps(stage: &mut Stage, scene: &Scene, rule: &'static Method, change: fn(&mut Settings)) {
+    let mut picture = |method: &Method| {
+        let mut scene = by(scene, method.name());
+        change(&mut scene.settings);
+        stage.shoot(&scene, None).picture
+    };
+    let of_rule = picture(rule);
+    for method in METHODS.into_iter().filter(|method| method.looks_ahead() && method.unskipped().name == rule.name) {
+        let differs = differing(&picture(method), &of_rule);
+        assert_eq!(differs, 0, "{}: {differs} pixels are not those of {}", method.name, rule.name);
     }
 }
 

@@ -102,15 +102,17 @@ fn number_of(scene: &Scene) -> usize {
     (hash >> 8) as usize
 }
 
-/// Methods of a device, the first of those that differ in no more than the distances they read.
+/// Methods of a device, the first of those that differ in no more than the distances they read; of loops, in no more than what they
+/// leap with.
 pub fn shapes() -> Vec<&'static Method> {
     let shape = |method: &Method| {
-        let looks_up = method.distance().is_some();
-        (method.ends_rays, method.skips_blocks(), looks_up, method.fused, method.traversal)
+        let ahead = (method.skips_blocks(), method.distance().is_some());
+        (method.ends_rays, ahead, method.fused, method.traversal)
     };
     let mut shapes: Vec<&Method> = Vec::new();
     for method in METHODS.into_iter().filter(|method| method.on_device) {
-        if shapes.iter().all(|one| shape(one) != shape(method)) {
+        let leaps = method.loops() && method.looks_ahead();
+        if !leaps && shapes.iter().all(|one| shape(one) != shape(method)) {
             shapes.push(method);
         }
     }
@@ -119,7 +121,7 @@ pub fn shapes() -> Vec<&'static Method> {
 
 /// Methods whose pictures are that of `rc-ert`, bit for bit.
 pub fn lawful() -> impl Iterator<Item = &'static Method> {
-    METHODS.into_iter().filter(|method| method.under_the_law())
+    METHODS.into_iter().filter(|method| method.under_the_law() && !method.loops())
 }
 
 /// What one scene keeps on the device for all its views and methods, and compiled pipelines for the next one too.
