@@ -6,8 +6,8 @@ mod cases;
 use std::collections::{HashMap, HashSet};
 
 use cases::cases;
-use depthleap::frame::schedule::{Scheduled, schedule};
-use depthleap::part::access::Usage;
+use depthleap::frame::schedule::{Barrier, Scheduled, schedule};
+use depthleap::part::access::{Access, Usage};
 use depthleap::part::resource::Resource;
 use depthleap::part::{Step, Work};
 use depthleap::resource;
@@ -129,32 +129,41 @@ impl Scheduling {
         found
     }
 
-    /// A line for each use that does not wait for the one before it, by the earlier pass, its own or a barrier.
+    /// A line for each use that does not wait for the one before it, by the earlier pass, its own or a barrier; a read may wait for
+    /// the last write instead.
     fn unordered(&self) -> Vec<String> {
         let mut last: HashMap<Resource, usize> = HashMap::new();
+        let mut written: HashMap<Resource, usize> = HashMap::new();
         let mut found = Vec::new();
         for (i, step) in self.steps.iter().enumerate() {
             for access in step.accesses.iter().filter(|access| access.resource.is_target()) {
+                let write = written.get(&access.resource).copied().filter(|_| !access.usage.writes());
+                if access.usage.writes() {
+                    written.insert(access.resource, i);
+                }
                 let Some(before) = last.insert(access.resource, i) else { continue };
-                let earlier = self.steps[before].accesses.iter().find(|a| a.resource == access.resource);
-                let (from, to) = (earlier.unwrap().usage.scope(), access.usage.scope());
-                let (source, target) = (&self.scheduled[before], &self.scheduled[i]);
-                let passes = source.render_pass.as_ref().map(|pass| pass.after);
-                let own = target.render_pass.as_ref().map(|pass| pass.before);
-                let barrier = target.barriers.iter().find(|barrier| barrier.resource == access.resource);
-                let waits = passes.into_iter().chain(own).any(|dependency| {
-                    let (source, target) = (dependency.source, dependency.target);
-                    source.stages.contains(from.0) && target.stages.contains(to.0) && target.access.contains(to.1)
-                });
-                let barred = barrier.is_some_and(|barrier| {
-                    barrier.source.stages.contains(from.0) && barrier.target.stages.contains(to.0)
-                });
-                if !waits && !barred {
+                if !write.into_iter().chain([before]).any(|before| self.waits(before, i, access)) {
                     found.push(format!("{}: {} of {}", step.name, access.resource.name(), self.name));
                 }
             }
         }
         found
+    }
+
+    /// Whether a use in step `i` waits for that of the same image in the step `before`.
+    fn waits(&self, before: usize, i: usize, access: &Access) -> bool {
+        let earlier = self.steps[before].accesses.iter().find(|a| a.resource == access.resource);
+        let (from, to) = (earlier.unwrap().usage.scope(), access.usage.scope());
+        let (source, target) = (&self.scheduled[before], &self.scheduled[i]);
+        let passes = source.render_pass.as_ref().map(|pass| pass.after);
+        let own = target.render_pass.as_ref().map(|pass| pass.before);
+        let barrier = target.barriers.iter().find(|barrier| barrier.resource == access.resource);
+        let by_pass = passes.into_iter().chain(own).any(|dependency| {
+            let (source, target) = (dependency.source, dependency.target);
+            source.stages.contains(from.0) && target.stages.contains(to.0) && target.access.contains(to.1)
+        });
+        let barred = |barrier: &Barrier| barrier.source.stages.contains(from.0) && barrier.target.stages.contains(to.0);
+        by_pass || barrier.is_some_and(barred)
     }
 }
 
@@ -175,7 +184,8 @@ fn first_draw_into_a_target_clears_and_later_ones_load() {
     for one in schedulings() {
         assert_eq!(one.wrongly_loaded(), [""; 0]);
         let cleared = one.attachments().filter(|(_, _, a)| a.load == vk::AttachmentLoadOp::CLEAR).count();
-        assert!(cleared >= 2, "entry and direction, at least, in {}", one.name);
+        let finds_rays = one.steps.iter().any(|step| step.name == "entry");
+        assert!(cleared >= 2 || !finds_rays, "entry and direction, at least, in {}", one.name);
     }
     let wrong = altered("main_pass #1", resource::ACCUMULATED, |a| a.load = vk::AttachmentLoadOp::CLEAR);
     assert_eq!(wrong.wrongly_loaded().len(), 1);
@@ -187,8 +197,12 @@ fn first_draw_into_a_target_clears_and_later_ones_load() {
 fn read_only_depth_stores_none_and_what_nobody_reads_is_not_stored() {
     for one in schedulings() {
         assert_eq!(one.wrongly_stored(), [""; 0]);
-        let picture = one.attachments().filter(|(_, target, _)| *target == resource::ACCUMULATED).last().unwrap();
-        assert_eq!(picture.2.store, vk::AttachmentStoreOp::STORE, "RES of {} is kept", one.name);
+        let picture = one.attachments().filter(|(_, target, _)| *target == resource::ACCUMULATED).last();
+        // A compute shader attaches nothing.
+        assert!(picture.is_some() || one.name.ends_with("+compute"), "RES of {} is drawn", one.name);
+        if let Some((_, _, picture)) = picture {
+            assert_eq!(picture.store, vk::AttachmentStoreOp::STORE, "RES of {} is kept", one.name);
+        }
     }
     let wrong = altered("main_pass #1", resource::STORED, |a| a.store = vk::AttachmentStoreOp::STORE);
     assert_eq!(wrong.wrongly_stored().len(), 1);
