@@ -16,7 +16,7 @@ use depthleap::vulkan::Device;
 
 use super::law::trusted;
 use super::matrix_scenes;
-use crate::harness::some_forms;
+use crate::harness::{share, some_forms};
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
 pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -52,6 +52,23 @@ pub static VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
     ("behind", [-0.2, -1.5, -0.9], [0.1, 0.0, 0.0]),
 ];
 
+/// Whether so large that each view takes seconds: by voxels.
+pub fn large(scene: &Scene) -> bool {
+    scene.field.dims().iter().product::<usize>() > 1 << 22
+}
+
+/// A large volume is seen from one in so many of [`VIEWS`], from others than the next one is.
+const SIDES: usize = 3;
+
+/// The [`VIEWS`] that a test sees a scene from, each with its number.
+pub fn views_of(scene: &Scene, turn: usize) -> Vec<(usize, (&'static str, [f64; 3], [f64; 3]))> {
+    let all = VIEWS.into_iter().enumerate();
+    match large(scene) {
+        true => all.skip(turn % SIDES).step_by(SIDES).collect(),
+        false => share(all, turn),
+    }
+}
+
 /// The scene seen from one of [`VIEWS`].
 pub fn seen(scene: &Scene, (_, eye, target): (&str, [f64; 3], [f64; 3])) -> Scene {
     let camera = Camera { eye: eye.into(), target: target.into(), ..(&scene.settings.camera).into() };
@@ -81,6 +98,14 @@ pub fn forms_here(device: &Arc<Device>, scene: &Scene) -> Vec<Option<Form>> {
         true => vec![forms[number_of(scene) % forms.len()]],
         false => forms,
     }
+}
+
+/// The forms that one of two tests of a scene draws it in: as [`forms_here`] or, where that is all of them, every other one from the
+/// first or second on by `turn`. Both tests have all of them between them.
+pub fn forms_in_turn(device: &Arc<Device>, scene: &Scene, turn: usize) -> Vec<Option<Form>> {
+    let forms = forms_here(device, scene);
+    let first = turn % 2 % forms.len();
+    forms.into_iter().skip(first).step_by(2).collect()
 }
 
 /// The forms of a method that the self-check found right; where another driver draws in all forms, those with the bounds test.
