@@ -37,6 +37,8 @@ pub enum Need {
     AnyDriver,
     /// The time of a driver that others do not stand in for.
     Thoroughness,
+    /// A driver that draws every scene in every form.
+    EveryForm,
 }
 
 /// Tests that need a device and nothing more, each named after its function.
@@ -83,6 +85,17 @@ pub fn some_forms() -> bool {
 /// Whether other drivers do more of everything: tests that take minutes here are left to them.
 pub fn least() -> bool {
     some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
+}
+
+/// One in so many that a driver takes of what others take whole.
+const SHARE: usize = 3;
+
+/// What this driver takes of `all` views or methods of a scene: all of them or, where other drivers do more of everything, every
+/// third, from the first to the third on by `turn`; one at least. Scenes that count their turns have all of them between them.
+pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
+    let all: Vec<T> = all.into_iter().collect();
+    let every = if least() { all.len().clamp(1, SHARE) } else { 1 };
+    all.into_iter().skip(turn % every).step_by(every).collect()
 }
 
 /// A file of `../shared/data`, beside the checkout.
@@ -221,6 +234,9 @@ fn lacks(need: &Need, device: &Device) -> Option<String> {
             .then(|| "a device that computes on queues of another family".to_owned()),
         Need::Thoroughness => {
             least().then(|| format!("what takes minutes, which {SOME_FORMS} and {DRIVER_ONLY} leave to another driver"))
+        }
+        Need::EveryForm => {
+            some_forms().then(|| format!("a driver that draws in every form: {SOME_FORMS} leaves it to another one"))
         }
         Need::Data(_) if std::env::var_os(DRIVER_ONLY).is_some() => {
             Some(format!("real volumes, which {DRIVER_ONLY} leaves to another driver"))

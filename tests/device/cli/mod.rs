@@ -12,7 +12,7 @@ use depthleap::vulkan::Device;
 use program::{Place, npy};
 use serde_json::Value;
 
-use crate::harness::{Need, Test, data, test};
+use crate::harness::{Need, Test, data, least, share, test};
 
 const METHODS: [&str; 5] = ["rc", "rc-ert", "rc-block", "nn-omni", "cpu"];
 const SMALL: &str = "builtin:shells:24 --azimuth 31 --elevation 17 --viewport 24x18";
@@ -23,18 +23,20 @@ pub fn tests() -> Vec<Test> {
         test("viewport beyond the device's limit is refused", viewport_beyond_the_limit),
         test("unknown device is refused with those there are", unknown_device),
         test("cull bounds is refused without depth bounds", bounds_without_the_feature).needs(Need::NoDepthBounds),
-        test("a form the method has not is refused", unknown_form),
+        test("a form the method has not is refused", unknown_form).needs(Need::AnyDriver),
         test("an output is kept when a run fails", failing_runs_change_nothing).needs(Need::AnyDriver),
         test("info writes JSON", info_writes_json),
-        test("render writes every key of a run", render_writes_every_key),
-        test("the same settings give the same bits", same_settings_same_bits),
+        test("render writes every key of a run", render_writes_every_key).needs(Need::Thoroughness),
+        test("the same settings give the same bits", same_settings_same_bits).needs(Need::Thoroughness),
         test("all three picture formats hold the same floats", formats_agree).needs(Need::AnyDriver),
         test("a run of a bench is repeated bit for bit", bench_runs_repeat).needs(Need::AnyDriver),
         test("bench writes one row a run and the keys of render", bench_writes_rows).needs(Need::AnyDriver),
-        test("validation finds nothing", validation_finds_nothing),
+        test("validation finds nothing", validation_finds_nothing).needs(Need::Thoroughness),
         test("voxels that are no numbers give finite pictures", policies_agree).needs(Need::AnyDriver),
-        test("all methods write the same picture", methods_agree_as_files),
-        test("cull bounds gives the picture of ztest", bounds_and_ztest_agree).needs(Need::DepthBounds),
+        test("all methods write the same picture", methods_agree_as_files).needs(Need::AnyDriver),
+        test("cull bounds gives the picture of ztest", bounds_and_ztest_agree)
+            .needs(Need::DepthBounds)
+            .needs(Need::Thoroughness),
         test("both early ends give one picture", early_ends_agree).needs(Need::Conditional),
         test("extra fetches change no picture and are swept", extra_fetches).needs(Need::AnyDriver),
         test("report makes all pages again", pages_come_again).needs(Need::AnyDriver),
@@ -137,7 +139,8 @@ fn volume_beyond_the_limit(device: &Arc<Device>) {
 fn viewport_beyond_the_limit(device: &Arc<Device>) {
     let place = Place::new();
     let limit = device.info.max_viewport[0].min(device.info.max_image_2d);
-    for size in [format!("{}x1", limit + 1), "40000x40000".to_owned(), "65535x65535".to_owned()] {
+    let sizes = [format!("{}x1", limit + 1), "40000x40000".to_owned(), "65535x65535".to_owned()];
+    for size in share(sizes, 0) {
         let parts = [&format!("--viewport) {size}"), &device.info.name, &format!("at most {limit}x")];
         place.refused(&format!("render --viewport {size} -o a.png"), 4, &parts.map(String::as_str));
     }
@@ -184,6 +187,9 @@ fn info_writes_json(device: &Arc<Device>) {
     assert_eq!(mine["name"], device.info.name.as_str());
     assert_eq!(mine["depth_bounds"], device.info.depth_bounds);
     assert!(mine["self_check"]["ztest+copy"].is_string() && mine["auto"].is_string(), "{mine}");
+    if least() {
+        return;
+    }
     let same: Value = serde_json::from_slice(&place.done("info --json -").out).unwrap();
     assert_eq!(same, json);
 }

@@ -10,12 +10,12 @@ use depthleap::vulkan::Device;
 
 use super::program::Place;
 use crate::frame::scenes::shapes;
-use crate::harness::{Test, least, some_forms, test};
+use crate::harness::{Need, Test, least, some_forms, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
         test("stability: every case is right", every_case),
-        test("stability runs what is asked for, validated", validated),
+        test("stability runs what is asked for, validated", validated).needs(Need::Thoroughness),
         test("stability refuses what it does not know", refused),
     ]
 }
@@ -25,13 +25,10 @@ fn read(place: &Place) -> Stability {
 }
 
 /// All methods; where another driver draws by all of them, the first of those that differ in no more than their distances; where
-/// others do all that, one that decides in its main passes, and one that skips nothing.
+/// others do all that, the one that both draws and decides in its main passes.
 fn methods() -> Vec<MethodName> {
     match some_forms() {
-        _ if least() => {
-            let few = |method: &&Method| method.ends_rays && (method.fused || !method.looks_ahead());
-            shapes().into_iter().filter(few).map(Method::name).collect()
-        }
+        _ if least() => shapes().into_iter().filter(|method| method.fused).map(Method::name).collect(),
         true => shapes().into_iter().map(Method::name).chain([CPU.name()]).collect(),
         false => METHODS.map(Method::name).to_vec(),
     }

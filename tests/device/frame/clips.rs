@@ -3,7 +3,7 @@
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{ClipSettings, Last, MeshSettings, Offset};
 
-use super::layers::{held, mesh, most_layers, view_for};
+use super::layers::{held, left_out_in_turn, mesh, most_layers, view_for};
 use super::scenes::{exactly, scene};
 use crate::harness::{Test, test};
 
@@ -54,8 +54,8 @@ fn clip(builtin: &str, keep: Keep) -> ClipSettings {
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for (name, geometry) in SCENES {
-        for last in [Last::Full, Last::Partial] {
+    for (number, (name, geometry)) in SCENES.into_iter().enumerate() {
+        for (turn, last) in [Last::Full, Last::Partial].into_iter().enumerate() {
             let scene = move || {
                 scene("shells:24", "ramp", |settings| {
                     exactly(settings);
@@ -68,12 +68,13 @@ pub fn tests() -> Vec<Test> {
                 })
             };
             let kind = if last == Last::Full { "whole samples" } else { "parts of samples" };
-            tests.push(test(&format!("clips::{name}::{kind}"), move |device| {
+            let one = test(&format!("clips::{name}::{kind}"), move |device| {
                 let mut scene = scene();
                 // As many as there are, and one that ends the peeling.
                 scene.settings.layers.most = most_layers(&scene) + 1;
-                held(device, &scene, view_for(last));
-            }));
+                held(device, &scene, view_for(last), turn);
+            });
+            tests.push(left_out_in_turn(one, number + turn));
         }
     }
     tests

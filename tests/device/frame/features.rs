@@ -93,15 +93,17 @@ fn dead_passes_are_not_run(device: &Arc<Device>) {
 }
 
 fn ways_of_ending_agree(device: &Arc<Device>) {
-    for scene in [deep(), scene("shells:32", "ramp", |s| s.sampling.samples_per_pass = 1)] {
+    let scenes = [deep(), scene("shells:32", "ramp", |s| s.sampling.samples_per_pass = 1)];
+    // Each from other sides.
+    for (scene, views) in scenes.into_iter().zip(VIEWS.chunks(VIEWS.len() / 2)) {
         let mut stages = [EarlyEnd::Conditional, EarlyEnd::ReadBack].map(|way| {
             let mut stage = Stage::new(device);
             stage.early_end = Some(way);
             stage
         });
-        for view in VIEWS {
+        for view in views {
             for method in ending() {
-                let scene = by(&seen(&scene, view), method);
+                let scene = by(&seen(&scene, *view), method);
                 let shots = stages.each_mut().map(|stage| stage.shoot(&scene, COPY));
                 assert_eq!(differing(&shots[0].picture, &shots[1].picture), 0);
                 assert_eq!(shots[0].run.fragments, shots[1].run.fragments);
@@ -249,9 +251,9 @@ fn omni_runs_fewer_fragments_than_blocks(device: &Arc<Device>) {
 /// space again does a fused pass run without taking samples.
 fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
     let sum = |list: &[u64]| list.iter().sum::<u64>();
+    let (scene, mut stage) = (scene("jets:64", "ramp", |_| {}), Stage::new(device));
     for view in VIEWS {
-        let scene = seen(&scene("jets:64", "ramp", |_| {}), view);
-        let mut stage = Stage::new(device);
+        let scene = seen(&scene, view);
         let [apart, fused] = [method::NN_OMNI.name(), method::NN_OMNI_FUSED.name()]
             .map(|method| stage.shoot(&by(&scene, method), COPY).run.fragments.expect("counts"));
         assert_eq!(fused.intermediate[0], apart.intermediate[0], "{}: the first pass is the same", view.0);

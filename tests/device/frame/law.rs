@@ -15,8 +15,8 @@ use depthleap::scene::settings::{
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, checked, differing, forms, lawful, scene, seen};
-use crate::harness::{Need, Test, least, some_forms, test};
+use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, scene, seen, views_of};
+use crate::harness::{Need, Test, least, share, some_forms, test};
 
 type Change = fn(&mut Settings);
 
@@ -140,26 +140,24 @@ pub fn tests() -> Vec<Test> {
 /// ones, a view has all of them in one scene or another.
 fn law(device: &Arc<Device>, scene: &Scene, number: usize) {
     let mut stage = Stage::new(device);
-    let large = scene.field.dims().iter().product::<usize>() > 1 << 22;
-    // Large volumes are seen from twelve further sides by `orbit`.
-    for (i, view) in VIEWS.into_iter().enumerate().take(if large { 3 } else { VIEWS.len() }) {
-        // Where another driver goes through all views, every other one; real volumes have no other.
-        if some_forms()
-            && scene.settings.volume.builtin.is_some()
-            && (i + number + usize::from(least())).is_multiple_of(2)
-        {
-            continue;
-        }
+    // Large volumes are seen from further sides by `orbit`.
+    let mut views = views_of(scene, number);
+    let first = views[0].0;
+    // Real volumes have no other driver that goes through all views.
+    if scene.settings.volume.builtin.is_some() {
+        views.retain(|(i, _)| drawn_here(*i, number));
+    }
+    for (i, view) in views {
         let scene = seen(scene, view);
         let ert = by(&scene, method::RC_ERT.name());
         let rule = stage.shoot(&ert, method::papers_form(method::RC_ERT.name()));
         let (turn, change) = TURNS[(i + number) % TURNS.len()];
-        for method in lawful() {
+        for method in share(lawful(), number / VIEWS.len()) {
             let mut scene = by(&scene, method.name());
             change(&mut scene.settings);
-            // A structure for each view of a large volume takes seconds: in small cells for one of them.
+            // A structure for each view of a large volume takes seconds: in small cells for the first of them.
             let per_view = method.distance().is_some_and(|kind| Lookup::new(&scene, kind).view.is_some());
-            if large && i != 1 && per_view {
+            if large(&scene) && i != first && per_view {
                 scene.settings.method.cell = 4;
             }
             let mut some = forms(device, method.name());
@@ -184,6 +182,16 @@ fn leaps(stage: &mut Stage, scene: &Scene, rule: &'static Method, change: fn(&mu
     for method in METHODS.into_iter().filter(|method| method.looks_ahead() && method.unskipped().name == rule.name) {
         let differs = differing(&picture(method), &of_rule);
         assert_eq!(differs, 0, "{}: {differs} pixels are not those of {}", method.name, rule.name);
+    }
+}
+
+/// Whether a view is drawn on this driver: where another one goes through all of them, every other one; where others do more of
+/// everything, one of those which they leave out.
+fn drawn_here(view: usize, number: usize) -> bool {
+    match some_forms() {
+        _ if least() => view == number % VIEWS.len(),
+        true => !(view + number).is_multiple_of(2),
+        false => true,
     }
 }
 

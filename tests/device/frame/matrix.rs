@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use depthleap::part::form::Form;
-use depthleap::part::rows::{Method, Traversal};
+use depthleap::part::rows::Method;
 use depthleap::projection::{self, Ends};
 use depthleap::resource;
 use depthleap::scene::Scene;
@@ -18,8 +18,8 @@ use depthleap::vulkan::{Device, vk};
 
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
 use super::matrix_scenes;
-use super::scenes::{Shot, Stage, checked, forms, forms_here, right_forms};
-use crate::harness::{Test, least, some_forms, test};
+use super::scenes::{Shot, Stage, checked, forms, forms_here, loops_in_turn, right_forms};
+use crate::harness::{Test, least, share, some_forms, test};
 
 /// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
 const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthFormat::D16];
@@ -60,26 +60,28 @@ pub fn tests() -> Vec<Test> {
     tests
 }
 
-/// Every method on a scene, from outside and from within; where another driver does both, from one of them.
+/// Every method on a scene, from outside and from within; where another driver does both, from one of them, and where others do more
+/// of everything, some of the methods.
 fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], number: usize) {
     let mut runs = Runs { device, stage: Stage::new(device), frames: 0, largest: 0.0, undecided: 0 };
     let mut scene = scene.clone();
     scene.unit = checked(device).unit;
     for (i, (view, scene)) in matrix_scenes::views(&scene).into_iter().enumerate() {
-        if some_forms() && depths.len() == 1 && !(i + number + usize::from(least())).is_multiple_of(2) {
+        if left_out(i, number, depths) {
             continue;
         }
         // What a format of the depth buffer may get wrong, it gets wrong in any view.
         let depths = if i == 0 { there(device, &scene, depths) } else { vec![scene.settings.method.depth] };
         // What has to come out, by the method with the same samples that skips nothing.
         let mut rules = BTreeMap::new();
-        for (at, method) in matrix_scenes::methods(&scene).enumerate() {
-            if some_forms() && depths.len() == 1 && method.loops() && !drawn_here(method, at, number) {
-                continue;
-            }
+        let methods = matrix_scenes::methods(&scene);
+        let here =
+            |method: &&Method| !some_forms() || depths.len() > 1 || !method.loops() || loops_in_turn(method, number);
+        for method in share(methods.filter(here), number) {
             let rule: &Shot = rules.entry(method.unskipped().name).or_insert_with(|| runs.rule(&scene, method));
             assert!(rule.picture.iter().any(|pixel| pixel[3] > 0.0), "{view}: nothing shows");
-            let held = runs.every_form(&scene, method, &depths, rule);
+            let forms = forms_from(i, device, &matrix_scenes::by(&scene, method), number, depths.len() > 1);
+            let held = runs.in_forms(&scene, method, forms, &depths, rule);
             held.unwrap_or_else(|what| panic!("{}, {view}: {what}", method.name));
         }
     }
@@ -87,15 +89,21 @@ fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], num
     println!("{frames} frames, largest difference to a twin {largest:.1e}, at most {undecided} pixels undecided");
 }
 
-/// Whether a loop is drawn where another driver draws all of them: those of one kind of shader, of which one leaps. Drivers take most of
-/// their time to compile them.
-fn drawn_here(method: &Method, at: usize, number: usize) -> bool {
-    let kind = if (number / 2).is_multiple_of(2) { Traversal::FragmentLoop } else { Traversal::ComputeLoop };
-    method.traversal == kind && (!method.looks_ahead() || at % LEAPING == (number / 4) % LEAPING)
+/// Whether other drivers draw this view of a scene, which this one has another view of. What a format of the depth buffer may get
+/// wrong, it gets wrong in the first.
+fn left_out(view: usize, number: usize, depths: &[DepthFormat]) -> bool {
+    match depths.len() {
+        1 => some_forms() && !(view + number + usize::from(least())).is_multiple_of(2),
+        _ => least() && view > 0,
+    }
 }
 
-/// Ways in which loops leap: blocks, and two kinds of distances. They follow each other in the list of methods.
-const LEAPING: usize = 3;
+/// The forms that a scene by a method is drawn in: from within in one of them that follows from the scene's number, from outside in all
+/// of them or, where another driver draws in all, in one, but for scenes whose marks differ from those of others.
+fn forms_from(view: usize, device: &Arc<Device>, scene: &Scene, number: usize, every: bool) -> Vec<Option<Form>> {
+    let forms = if every { right_forms(device, scene.settings.method.name) } else { forms_here(device, scene) };
+    if view == 0 { forms } else { vec![forms[number % forms.len()]] }
+}
 
 struct Runs<'a> {
     device: &'a Arc<Device>,
@@ -116,11 +124,12 @@ impl Runs<'_> {
         self.stage.shoot(&matrix_scenes::by(scene, rule), form)
     }
 
-    /// A method in all its forms, held against its twin, the rule and its first form.
-    fn every_form(
+    /// A method in these forms, held against its twin, the rule and its first form.
+    fn in_forms(
         &mut self,
         scene: &Scene,
         method: &Method,
+        forms: Vec<Option<Form>>,
         depths: &[DepthFormat],
         rule: &Shot,
     ) -> Result<(), String> {
@@ -144,8 +153,6 @@ impl Runs<'_> {
         if !method.on_device {
             return difference(&rule.picture, &twin, SAME_SUM + stated(&scene, rule)).map(drop);
         }
-        let every = depths.len() > 1;
-        let forms = if every { right_forms(self.device, method.name()) } else { forms_here(self.device, &scene) };
         let mut first = None;
         for (i, form) in forms.into_iter().enumerate() {
             let depths = match form {

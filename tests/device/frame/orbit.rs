@@ -12,11 +12,17 @@ use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 use glam::DVec3;
 
-use super::scenes::{Stage, by, checked, differing, forms, scene};
-use crate::harness::{Need, Test, test};
+use super::scenes::{Stage, by, checked, differing, forms, large, scene};
+use crate::harness::{Need, Test, share, test};
 
 /// Views of an orbit.
 const VIEWS: usize = 12;
+
+/// A real volume is seen from one in so many of them, from others than the next one is.
+const REAL: usize = 2;
+
+/// The same of a large one.
+const LARGE: usize = 3;
 
 /// Volume, transfer function, side of the cells: larger ones for large volumes, whose structures take seconds for each
 /// view otherwise (the law of skipping is held for small cells besides).
@@ -53,26 +59,37 @@ fn methods() -> impl Iterator<Item = (&'static Method, Distance)> {
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for (volume, tf, cell) in VOLUMES {
+    for (number, (volume, tf, cell)) in VOLUMES.into_iter().enumerate() {
         let mut one = test(&format!("orbit::{volume}::{tf}"), move |device| {
             let scene = scene(volume, tf, |s| {
                 s.method.cell = cell;
                 s.image.size = [48, 40];
             });
-            orbit(device, &scene);
+            orbit(device, &scene, number);
         });
         if volume.ends_with(".nrrd") {
             one = one.needs(Need::Data(volume));
         }
         tests.push(one);
     }
-    tests.push(test("orbit::structures_are_built_beside_the_frames", structures_are_built_beside_the_frames));
+    let beside = test("orbit::structures_are_built_beside_the_frames", structures_are_built_beside_the_frames);
+    tests.push(beside.needs(Need::Thoroughness));
     tests
 }
 
-fn orbit(device: &Arc<Device>, scene: &Scene) {
+/// The views of a volume by their numbers.
+fn views_around(scene: &Scene, turn: usize) -> Vec<usize> {
+    let every = match scene.settings.volume.builtin {
+        Some(_) => return share(0..VIEWS, turn),
+        None if large(scene) => LARGE,
+        None => REAL,
+    };
+    (turn % every..VIEWS).step_by(every).collect()
+}
+
+fn orbit(device: &Arc<Device>, scene: &Scene, turn: usize) {
     let mut stage = Stage::new(device);
-    for view in 0..VIEWS {
+    for (i, view) in views_around(scene, turn).into_iter().enumerate() {
         let degrees = 360.0 * view as f64 / VIEWS as f64;
         // Not head-on to any face.
         let camera = Camera { eye: DVec3::new(0.21, 0.6, 1.8), ..(&scene.settings.camera).into() };
@@ -85,7 +102,7 @@ fn orbit(device: &Arc<Device>, scene: &Scene) {
         let sum = |counts: &[u64]| counts.iter().sum::<u64>();
         let ert_main = sum(&rule.run.fragments.as_ref().expect("counts").main);
         let mut main = Vec::new();
-        for (method, distance) in methods().filter(|(method, _)| !method.fused || view % FUSED == 0) {
+        for (method, distance) in methods().filter(|(method, _)| !method.fused || i % FUSED == 0) {
             // The last form is one that every driver has and gets right.
             let form = forms(device, method.name()).pop().flatten();
             let shot = stage.shoot(&by(&scene, method.name()), form);

@@ -23,13 +23,14 @@ struct Frame {
     steps: usize,
 }
 
-fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool) -> Frame {
+/// One frame; of what `resident` has, pipelines serve.
+fn frame(resident: &mut Resident, device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool) -> Frame {
     let mut scene = scene.clone();
     scene.settings.method.planner = planner;
     let plan = plan::plan(&scene, form).expect("a plan");
-    let mut resident = Resident::new(device);
+    resident.forget_scene();
     resident.prepare(&scene, &plan).expect("room");
-    let mut gpu = GpuFrame::new(device, &scene, &plan, &mut resident, None).expect("a frame");
+    let mut gpu = GpuFrame::new(device, &scene, &plan, resident, None).expect("a frame");
     gpu.run(Measure::Nothing).expect("a frame");
     let there: Vec<_> = resident.bytes(&plan).into_iter().chain(gpu.bytes()).collect();
     for (resource, found) in &there {
@@ -41,11 +42,12 @@ fn frame(device: &Arc<Device>, scene: &Scene, form: Option<Form>, planner: bool)
 }
 
 fn pictures_stay(device: &Arc<Device>) {
+    let mut resident = Resident::new(device);
     for (name, change, less) in SCENES {
         let scene = read::scene(&lacking::settings(change)).expect("a sound scene");
         // The last form of each method is the one every device has.
         let form = forms(device, scene.settings.method.name).pop().flatten();
-        let (lean, full) = (frame(device, &scene, form, true), frame(device, &scene, form, false));
+        let [lean, full] = [true, false].map(|planner| frame(&mut resident, device, &scene, form, planner));
         println!("{name}: {} bytes of {}, {} steps of {}", lean.bytes, full.bytes, lean.steps, full.steps);
         assert_eq!(differing(&lean.picture, &full.picture), 0, "{name}");
         assert!(full.picture.iter().any(|p| p[3] > 0.0) || matches!(less, Less::Everything), "{name} shows something");

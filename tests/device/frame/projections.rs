@@ -11,8 +11,8 @@ use depthleap::scene::Scene;
 use depthleap::scene::settings::{Accumulate, Last, Offset, Settings};
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, differing, exactly, forms, forms_here, scene, seen};
-use crate::harness::{Need, Test, test};
+use super::scenes::{Stage, VIEWS, by, differing, exactly, forms, forms_here, loops_in_turn, scene, seen, shapes};
+use crate::harness::{Need, Test, share, test};
 
 /// Largest difference between a frame in f32 and the same in f64, of values about 1 or relative to them.
 const SAME_SUM: f64 = 2e-5;
@@ -36,21 +36,19 @@ const REAL: [&str; 4] = ["fuel.nrrd", "nucleon.nrrd", "neghip.nrrd", "silicium.n
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for row in PROJECTIONS {
-        for (volume, change) in SCENES {
+    for (of_row, row) in PROJECTIONS.into_iter().enumerate() {
+        for (number, (volume, change)) in SCENES.into_iter().enumerate() {
             tests.push(test(&format!("projections::{}::{volume}", row.name), move |device| {
-                skipping(device, &projected(volume, row, change));
+                skipping(device, &projected(volume, row, change), of_row + number);
             }));
         }
         tests.push(test(&format!("projections::{}::twin", row.name), move |device| {
-            for (volume, change) in SCENES.into_iter().take(2) {
-                twin(
-                    device,
-                    &projected(volume, row, |s| {
-                        change(s);
-                        exactly(s);
-                    }),
-                );
+            for (number, (volume, change)) in SCENES.into_iter().take(2).enumerate() {
+                let scene = projected(volume, row, |s| {
+                    change(s);
+                    exactly(s);
+                });
+                twin(device, &scene, of_row + number);
             }
         }));
     }
@@ -80,16 +78,22 @@ fn rule(stage: &mut Stage, scene: &Scene, row: &'static Method) -> Vec<[f32; 4]>
     stage.shoot(&by(scene, row.name()), row.papers).picture
 }
 
-/// Every method in every form gives one picture, and the same counts in all of its forms.
-fn skipping(device: &Arc<Device>, scene: &Scene) {
+/// Every method gives one picture, and the same counts in all of its forms: in every form from the first side, in one of them from
+/// the second.
+fn skipping(device: &Arc<Device>, scene: &Scene, turn: usize) {
     let mut stage = Stage::new(device);
-    for view in VIEWS.into_iter().skip(1).take(2) {
+    for (side, view) in share(VIEWS.into_iter().skip(1).take(2).enumerate(), turn) {
         let scene = seen(scene, view);
         let mut rules = BTreeMap::new();
-        for row in METHODS.into_iter().filter(|row| row.on_device) {
+        let here = |row: &&Method| row.on_device && (!row.loops() || loops_in_turn(row, turn));
+        for row in METHODS.into_iter().filter(here) {
             let scene = by(&scene, row.name());
             let mut counts = None;
-            for form in forms_here(device, &scene) {
+            let mut forms = forms_here(device, &scene);
+            if side > 0 {
+                forms = vec![forms[turn % forms.len()]];
+            }
+            for form in forms {
                 let shot = stage.shoot(&scene, form);
                 let name = format!("{}, {}, {}", row.name, form.map_or_else(String::new, Form::name), view.0);
                 let rule = rules.entry(row.unskipped().name).or_insert_with(|| rule(&mut stage, &scene, row));
@@ -104,12 +108,13 @@ fn skipping(device: &Arc<Device>, scene: &Scene) {
     }
 }
 
-/// Pictures are those of the twins, and so are the fragments of main passes.
-fn twin(device: &Arc<Device>, scene: &Scene) {
+/// Pictures are those of the twins, and so are the fragments of main passes. By one method of each kind: that others differ in
+/// their distances alone, `matrix` holds for every projection.
+fn twin(device: &Arc<Device>, scene: &Scene, turn: usize) {
     let mut stage = Stage::new(device);
     let mut largest = 0.0f64;
-    for view in VIEWS.into_iter().skip(1).take(3) {
-        for row in METHODS.into_iter().filter(|row| row.on_device) {
+    for view in share(VIEWS.into_iter().skip(1).take(3), turn) {
+        for row in shapes() {
             let scene = by(&seen(scene, view), row.name());
             let twin = stage.twin(&scene, row.papers);
             let shot = stage.shoot(&scene, forms(device, row.name()).pop().flatten());

@@ -59,6 +59,7 @@ fn last_form(device: &Device, scene: &Scene) -> Option<Form> {
 
 fn every_method(_: &Arc<Device>) {
     let device = &alone();
+    let mut resident = Resident::new(device);
     for method in METHODS.into_iter().filter(|method| method.on_device) {
         for (on_host, cell) in [(false, 1), (false, 4), (true, 1)] {
             let scene = by(&scene("shells:24", "ramp", |s| s.method.cell = cell), method.name());
@@ -67,7 +68,8 @@ fn every_method(_: &Arc<Device>) {
             let makers = |maker: Maker| plan.builds.iter().filter(|build| build.maker == maker).count();
             assert_eq!(makers(Maker::Host), usize::from(on_host && method.distance().is_some()), "{}", method.name);
             assert!(makers(Maker::Compute) > 0 || on_host || !method.looks_ahead(), "{}", method.name);
-            let found = traced(device, &mut Resident::new(device), &scene, &plan, Some(EarlyEnd::Never));
+            resident.forget_scene();
+            let found = traced(device, &mut resident, &scene, &plan, Some(EarlyEnd::Never));
             assert_eq!(found, planned(&plan, false), "{}, cells of {cell}, on the host: {on_host}", method.name);
         }
     }

@@ -7,16 +7,16 @@ use depthleap::frame::{
 };
 use depthleap::method::{self, METHODS};
 use depthleap::part::form::Form;
-use depthleap::part::rows::Method;
+use depthleap::part::rows::{Ahead, Method, Traversal};
 use depthleap::plan::{self, Choice, Plan};
 use depthleap::read;
-use depthleap::scene::settings::{Cull, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::scene::settings::{Cull, Distance, Filter, MethodName, Settings, VolumeTexture};
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 
 use super::law::trusted;
 use super::matrix_scenes;
-use crate::harness::some_forms;
+use crate::harness::{share, some_forms};
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
 pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -52,6 +52,23 @@ pub static VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
     ("behind", [-0.2, -1.5, -0.9], [0.1, 0.0, 0.0]),
 ];
 
+/// Whether so large that each view takes seconds: by voxels.
+pub fn large(scene: &Scene) -> bool {
+    scene.field.dims().iter().product::<usize>() > 1 << 22
+}
+
+/// A large volume is seen from one in so many of [`VIEWS`], from others than the next one is.
+const SIDES: usize = 3;
+
+/// The [`VIEWS`] that a test sees a scene from, each with its number.
+pub fn views_of(scene: &Scene, turn: usize) -> Vec<(usize, NamedView)> {
+    let all = VIEWS.into_iter().enumerate();
+    match large(scene) {
+        true => all.skip(turn % SIDES).step_by(SIDES).collect(),
+        false => share(all, turn),
+    }
+}
+
 /// The scene seen from one of [`VIEWS`].
 pub fn seen(scene: &Scene, (_, eye, target): (&str, [f64; 3], [f64; 3])) -> Scene {
     let camera = Camera { eye: eye.into(), target: target.into(), ..(&scene.settings.camera).into() };
@@ -81,6 +98,14 @@ pub fn forms_here(device: &Arc<Device>, scene: &Scene) -> Vec<Option<Form>> {
         true => vec![forms[number_of(scene) % forms.len()]],
         false => forms,
     }
+}
+
+/// The forms that one of two tests of a scene draws it in: as [`forms_here`] or, where that is all of them, every other one from the
+/// first or second on by `turn`. Both tests have all of them between them.
+pub fn forms_in_turn(device: &Arc<Device>, scene: &Scene, turn: usize) -> Vec<Option<Form>> {
+    let forms = forms_here(device, scene);
+    let first = turn % 2 % forms.len();
+    forms.into_iter().skip(first).step_by(2).collect()
 }
 
 /// The forms of a method that the self-check found right; where another driver draws in all forms, those with the bounds test.
@@ -119,10 +144,25 @@ pub fn shapes() -> Vec<&'static Method> {
     shapes
 }
 
+/// Whether a loop is one of those that a scene is drawn by in its turn: fragment or compute shaders, the one that does not leap and one
+/// that does. Drivers take most of their time to compile them.
+pub fn loops_in_turn(method: &Method, turn: usize) -> bool {
+    let kind = if turn.is_multiple_of(2) { Traversal::FragmentLoop } else { Traversal::ComputeLoop };
+    let leaps = match turn / 2 % 3 {
+        0 => Ahead::Blocks,
+        1 => Ahead::Distances(Distance::Omni),
+        _ => Ahead::Distances(Distance::Directional),
+    };
+    method.traversal == kind && [Ahead::Nothing, leaps].contains(&method.ahead)
+}
+
 /// Methods whose pictures are that of `rc-ert`, bit for bit.
 pub fn lawful() -> impl Iterator<Item = &'static Method> {
     METHODS.into_iter().filter(|method| method.under_the_law() && !method.loops())
 }
+
+/// A view by its name: eye and target.
+pub type NamedView = (&'static str, [f64; 3], [f64; 3]);
 
 /// What one scene keeps on the device for all its views and methods, and compiled pipelines for the next one too.
 pub struct Stage {

@@ -10,7 +10,7 @@ use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
 use super::compare::{SAME_SUM, difference, held};
-use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen, shapes};
+use super::scenes::{Stage, VIEWS, by, exactly, forms, scene, seen, shapes, views_of};
 use crate::harness::{Need, Test, test};
 
 /// Share of pixels in which f32 may not be able to tell on which side of a jump or an end a sample lies. Those on the
@@ -35,9 +35,9 @@ const SCENES: [(&str, &str); 12] = [
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for (volume, tf) in SCENES {
+    for (number, (volume, tf)) in SCENES.into_iter().enumerate() {
         let one = test(&format!("twin::{volume}::{tf}"), move |device| {
-            twin(device, &scene(volume, tf, exactly));
+            twin(device, &scene(volume, tf, exactly), number);
         });
         tests.push(if volume.ends_with(".nrrd") { one.needs(Need::Data(volume)) } else { one });
     }
@@ -50,10 +50,11 @@ pub fn tests() -> Vec<Test> {
                     s.sampling.step = 0.25;
                     (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
                 }),
+                0,
             );
         }),
         test("twin::steps_classified_as_a_whole", |device| {
-            for last in [Last::Full, Last::Partial] {
+            for (turn, last) in [Last::Full, Last::Partial].into_iter().enumerate() {
                 twin(
                     device,
                     &scene("shells:32x28x30", "surface", |s| {
@@ -61,6 +62,7 @@ pub fn tests() -> Vec<Test> {
                         (s.sampling.classification, s.sampling.last) = (Classification::PreIntegrated, last);
                         s.sampling.step = 1.7;
                     }),
+                    turn,
                 );
             }
         }),
@@ -73,11 +75,11 @@ pub fn tests() -> Vec<Test> {
     tests
 }
 
-/// Every shape of a method, all views: counts and picture are those of the twins.
-fn twin(device: &Arc<Device>, scene: &Scene) {
+/// Every shape of a method, all views of a volume that is not large: counts and picture are those of the twins.
+fn twin(device: &Arc<Device>, scene: &Scene, turn: usize) {
     let mut stage = Stage::new(device);
     let (mut largest, mut open, mut outline, mut pixels) = (0.0f64, 0, 0, 0);
-    for view in VIEWS {
+    for (_, view) in views_of(scene, turn) {
         for method in shapes().into_iter().map(Method::name) {
             let scene = by(&seen(scene, view), method);
             // The last form of each method is the one every device has.
