@@ -30,6 +30,7 @@
 #include "shared/samples.glsl"
 #include "shared/section.glsl"
 #ifndef DENSE
+#include "shared/free.glsl"
 #include "shared/distance.glsl"
 #endif
 #include "shared/near_neighbor.glsl"

@@ -40,6 +40,7 @@
 #include "shared/surface_color.glsl"
 #endif
 #ifdef LEAP_DISTANCES
+#include "shared/free.glsl"
 #include "shared/distance.glsl"
 #elif defined(LEAP_BLOCKS)
 #include "shared/block.glsl"

@@ -1,5 +1,5 @@
 // Distances to what shows, and how many samples of a ray are free by them [Thesis §5.3]. Twin: src/twin/near_neighbor.rs.
-// Needs frame.glsl, double_float.glsl and samples.glsl.
+// Needs frame.glsl, double_float.glsl, samples.glsl and free.glsl.
 
 // Of each cell a byte, or eight bytes in two words, one for each octant: 0 where the cell is interesting, else one more
 // than the voxels of the finest spacing that a ray may go from anywhere in the cell.
@@ -11,6 +11,7 @@ layout(constant_id = 7) const int CELL = 1;
 layout(constant_id = 8) const bool OCTANTS = false;
 // A sample stands for all values up to the next one (preintegrated.glsl).
 layout(constant_id = 12) const bool SPANS = false;
+
 // The largest distance there is, and the longest way inside a cell that is counted, in voxels.
 const float FAR = 254.0;
 
@@ -22,16 +23,6 @@ uint byte_of(Ray ray, ivec3 box) {
     }
     uvec3 down = uvec3(lessThan(ray.step_vector, vec3(0.0)));
     return bitfieldExtract(down.z == 0u ? texel.x : texel.y, int(8u * (down.x + 2u * down.y)), 8);
-}
-
-// What f32 may take from a quotient of a whole number and a step, relative, the step's own rounding included.
-const float QUOTIENT_ROUNDING = exp2(-20.0);
-
-// Samples that show nothing, from one on from which `way` voxels are free: those no farther from it, itself among them.
-// Where rounding up may take in another, a way is of 508 voxels at the most, and grows by 5e-4; distances leave room for
-// more (SLACK in src/structure/grid.rs).
-uint free_samples(float way) {
-    return uint(floor(way / frame.step_voxels * (1.0 + QUOTIENT_ROUNDING))) + 1u;
 }
 
 // Samples from `i` on that show nothing.

@@ -37,6 +37,8 @@ struct Ray {
 
 // The last sample stands for what is left of the ray only; one that a surface cuts, for what is left of its step.
 layout(constant_id = 5) const bool LAST_PARTIAL = false;
+// A step that would leave the volume has no sample [Stegmaier05 §5].
+layout(constant_id = 27) const bool LAST_NONE = false;
 
 #ifdef LAYER_BEFORE
 // Whether a ray has a part behind a layer that is drawn.
@@ -101,7 +103,7 @@ Ray ray_along(vec3 begin, vec4 unit) {
         ray.part[axis] = (first.x - ray.whole[axis]) + first.y;
     }
     ray.steps = unit.w * frame.inverse_step;
-    ray.samples = uint(max(ceil(ray.steps - frame.offset), 0.0));
+    ray.samples = LAST_NONE ? uint(ray.steps) : uint(max(ceil(ray.steps - frame.offset), 0.0));
 #ifdef LAYERS
     cut(ray);
 #endif

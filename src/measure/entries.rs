@@ -204,8 +204,8 @@ impl Clock {
 pub struct Saved {
     /// The run compared with: `rc-ert`, and its form of culling and marking.
     pub against: String,
-    /// Of all fragments, those of main and of intermediate passes.
-    pub fragments: f64,
+    /// Of all fragments, those of main and of intermediate passes; null for loops, whose fragments are rays.
+    pub fragments: Option<f64>,
     /// Of the time of a frame; null where it was not timed.
     pub time: Option<f64>,
     pub clock: Option<Clock>,
@@ -215,6 +215,6 @@ impl Saved {
     /// *Culling efficiency*: the part of the fragments saved that became time saved, 1 where all of it did. None where
     /// no fragments were saved.
     pub fn efficiency(&self) -> Option<f64> {
-        (self.fragments > 0.0).then_some(self.time? / self.fragments)
+        self.fragments.filter(|fragments| *fragments > 0.0).and_then(|fragments| Some(self.time? / fragments))
     }
 }

@@ -21,6 +21,7 @@ use crate::frame::{
 };
 use crate::method;
 use crate::part::form::Form;
+use crate::part::rows::{Method, Traversal};
 use crate::plan::{self, Plan};
 use crate::resource;
 use crate::scene::Scene;
@@ -196,7 +197,8 @@ impl<'a> Runner<'a> {
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
             error = Some(compared.record("the same sum in f64 (`cpu`)"));
-            ideal = entry.plan.method.ends_rays.then_some(Ideal { main: frame.ideal });
+            let segments = entry.plan.method.ends_rays && !entry.plan.method.loops();
+            ideal = segments.then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
         let on_cpu = entry.frame.is_none();
@@ -268,6 +270,7 @@ impl<'a> Runner<'a> {
             }
         }
         notes.extend(parts_between_layers(&entry.counts));
+        notes.extend(counted(entry.plan.method).map(str::to_owned));
         if entry.plan.method.skips_blocks() {
             let first = entry.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
@@ -296,6 +299,17 @@ impl<'a> Runner<'a> {
         // Several of a kind are one line.
         shared.chain(own).for_each(|(r, bytes)| *memory.entry(r.name().to_owned()).or_default() += bytes);
         memory
+    }
+}
+
+/// What counts of fragments are, where they are not those of passes.
+fn counted(method: &Method) -> Option<&'static str> {
+    match method.traversal {
+        Traversal::Passes => None,
+        Traversal::FragmentLoop => Some("a fragment is a ray: its loop takes all samples of it"),
+        Traversal::ComputeLoop => {
+            Some("fragments are invocations of a compute shader, one for each pixel that the box may cover")
+        }
     }
 }
 

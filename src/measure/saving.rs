@@ -7,13 +7,15 @@ use super::record::{Clock, Run, Saved};
 /// The method whose fragments and time are saved: rays end early, nothing is skipped [KW03 §2.1].
 pub const AGAINST: &str = "rc-ert";
 
-/// Fills in what each run saves against the `rc-ert` run of the same form, or else the first one. All are of one scene. A loop draws
-/// one fragment a pixel, whatever it skips, which is not what `rc-ert` counts.
+/// Whether a method's fragments are rays, not segments of them.
+fn loops(method: &str) -> bool {
+    method::METHODS.iter().any(|row| row.name == method && row.loops())
+}
+
+/// Fills in what each run saves against the `rc-ert` run of the same form, or else the first one. All are of one scene.
 pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
     let rules: Vec<Run> = runs.iter().filter(|run| run.method == AGAINST).map(|run| (**run).clone()).collect();
-    let compares =
-        |run: &Run| method::METHODS.iter().any(|row| row.name == run.method && row.on_device && !row.loops());
-    for run in runs.iter_mut().filter(|run| run.method != AGAINST && compares(run)) {
+    for run in runs.iter_mut().filter(|run| run.method != AGAINST && run.method != "cpu") {
         let same = |rule: &&Run| (&rule.cull, &rule.mark) == (&run.cull, &run.mark);
         let Some(rule) = rules.iter().find(same).or_else(|| rules.first()) else { continue };
         let all = |run: &Run| run.fragments.main.saturating_add(run.fragments.intermediate) as f64;
@@ -28,7 +30,7 @@ pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
         let form = rule.form().map_or_else(String::new, |form| format!(" ({form})"));
         run.saved = Some(Saved {
             against: format!("{AGAINST}{form}"),
-            fragments: 1.0 - all(run) / all(rule),
+            fragments: (!loops(&run.method)).then(|| 1.0 - all(run) / all(rule)),
             time,
             clock: time.map(|_| clock),
         });

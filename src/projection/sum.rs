@@ -19,7 +19,7 @@ pub const AVERAGE: Projection = Projection {
         exact: |met| met.integral / met.lengths,
         order: |offset, last, vanishes| match last {
             // A last sample of full weight has the mean of a ray that is longer than this one.
-            Last::Full => Some(1.0),
+            Last::Full | Last::None => Some(1.0),
             Last::Partial => order(offset, last, vanishes),
         },
         magnification: |_| 1.0,
@@ -64,7 +64,7 @@ fn order(offset: Offset, last: Last, vanishes: bool) -> Option<f64> {
         _ if vanishes => 2.0,
         (Offset::Left, _) => 1.0,
         (Offset::Midpoint, Last::Partial) => 2.0,
-        // What the last sample stands for beyond the face is an error of the first order.
-        (Offset::Midpoint, Last::Full) => 1.0,
+        // What the last sample stands for beyond the face, or what is left out before it, is an error of the first order.
+        (Offset::Midpoint, Last::Full | Last::None) => 1.0,
     })
 }

@@ -24,7 +24,7 @@ pub fn verdict(groups: &[RunGroup]) -> String {
         let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| run.marks_sections());
         let saved = runs.filter_map(|run| {
             let saved = run.saved.as_ref()?;
-            Some((label(run), saved.fragments, saved.time?))
+            Some((label(run), saved.fragments?, saved.time?))
         });
         saved.max_by(|a, b| a.2.total_cmp(&b.2))
     };

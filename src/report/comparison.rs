@@ -181,7 +181,7 @@ impl Sheet {
             self.time(run.gpu_ms.as_ref().and_then(|t| t.total()), "no device timestamps for this run"),
             self.time(run.host.cpu.as_ref(), "CPU time was not measured"),
             self.time(run.host.build.as_ref(), "this method builds no structure"),
-            self.saved(run, |saved| Some(100.0 * saved.fragments), 1),
+            self.saved(run, |saved| Some(100.0 * saved.fragments?), 1),
             self.saved(run, |saved| Some(100.0 * saved.time?), 1),
             self.saved(run, |saved| saved.efficiency(), 2),
             self.error(run),
@@ -198,7 +198,7 @@ impl Sheet {
                 let clock = saved.clock.map_or("", Clock::words);
                 self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
             }
-            None => self.absent("not timed, or no fragment was saved"),
+            None => self.absent("not timed, no fragment saved, or fragments that are rays, not segments of them"),
         }
     }
 

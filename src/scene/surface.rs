@@ -56,6 +56,14 @@ impl Scene {
         if self.surface.is_some() { Last::Partial } else { self.settings.sampling.last }
     }
 
+    /// Samples on a ray that is so many steps long.
+    pub fn samples_on(&self, steps: f64) -> u32 {
+        match self.last() {
+            Last::None => steps as u32,
+            Last::Full | Last::Partial => (steps - self.settings.sampling.offset.steps()).ceil().max(0.0) as u32,
+        }
+    }
+
     /// Whether what a sample shows is not that of its own value alone, but of the way to the next one too.
     pub fn spans(&self) -> bool {
         self.surface.is_some() || self.settings.sampling.preintegrates()

@@ -146,7 +146,5 @@ fn covered(clip: &[[f32; 3]], size: [u32; 2]) -> Region {
 
 fn longest_samples(scene: &Scene, rays: &ViewRays, region: Region) -> u32 {
     let longest = longest_ray(rays, 0.5 * scene.field.extent(), scene.clip_planes(), region);
-    let sampling = &scene.settings.sampling;
-    let steps = longest / (sampling.step * scene.field.finest());
-    (steps - sampling.offset.steps()).ceil().max(0.0) as u32
+    scene.samples_on(longest / (scene.settings.sampling.step * scene.field.finest()))
 }

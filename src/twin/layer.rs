@@ -52,7 +52,7 @@ impl Twin<'_> {
         }
         match self.scene.last() {
             Last::Partial => ((begin.floor() as u32).min(all - 1), (end.ceil() as u32).min(all)),
-            Last::Full => {
+            Last::Full | Last::None => {
                 let sample = |steps: f64| (steps - self.scene.settings.sampling.offset.steps()).ceil().max(0.0) as u32;
                 (sample(begin), sample(end).min(all))
             }
@@ -98,7 +98,7 @@ impl Twin<'_> {
         for cut in self.part(pixel).into_iter().filter(|cut| *cut > 0.0 && *cut < steps) {
             let place = match self.scene.last() {
                 Last::Partial => cut,
-                Last::Full => cut - offset,
+                Last::Full | Last::None => cut - offset,
             };
             pixel.undecided |= (place - place.round()).abs() < reach;
         }

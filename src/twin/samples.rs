@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Pixel, Twin};
 use crate::projection::Ends;
-use crate::scene::settings::PartialSegments;
+use crate::scene::settings::{Last, PartialSegments};
 
 /// The GPU's count of samples comes from the stored length and an f32 step. Within this of a whole number (relative to
 /// the length in steps: two roundings and that of the offset, of 2^-24 each) the two may differ by one.
@@ -24,15 +24,18 @@ impl Twin<'_> {
         pixel.length / self.step_length()
     }
 
-    /// Samples on the ray: all i with (i + offset) steps < length.
+    /// Samples on the ray: all i with (i + offset) steps < length, or all whose whole step lies on it.
     pub fn sample_count(&self, pixel: &Pixel) -> u32 {
-        (self.steps(pixel) - self.scene.settings.sampling.offset.steps()).ceil().max(0.0) as u32
+        self.scene.samples_on(self.steps(pixel))
     }
 
     /// Whether f32 can tell the number of samples.
     pub fn sample_count_decided(&self, pixel: &Pixel) -> bool {
         let steps = self.steps(pixel);
-        let shifted = steps - self.scene.settings.sampling.offset.steps();
+        let shifted = match self.scene.last() {
+            Last::None => steps,
+            Last::Full | Last::Partial => steps - self.scene.settings.sampling.offset.steps(),
+        };
         (shifted - shifted.round()).abs() > LENGTH_ROUNDING * steps.max(1.0)
     }
 

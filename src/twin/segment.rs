@@ -76,7 +76,7 @@ impl Twin<'_> {
         let sampling = &self.scene.settings.sampling;
         let all = match sampling.last {
             Last::Partial => self.steps(pixel),
-            Last::Full => f64::from(self.sample_count(pixel)),
+            Last::Full | Last::None => f64::from(self.sample_count(pixel)),
         };
         let lengths = sampling.step / self.scene.transfer.reference;
         let weight = SampleWeight { steps: self.extent_of_sample(pixel, i), all, lengths };
@@ -90,7 +90,7 @@ impl Twin<'_> {
         let ([begin, end], step_end) = (self.part(pixel), if last { self.steps(pixel) } else { f64::from(i + 1) });
         match self.scene.settings.sampling.last {
             Last::Partial => step_end.min(end) - f64::from(i).max(begin),
-            Last::Full => 1.0,
+            Last::Full | Last::None => 1.0,
         }
     }
 

@@ -27,7 +27,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 54] = [
+const KINDS: [(&str, Change); 55] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -46,6 +46,7 @@ const KINDS: [(&str, Change); 54] = [
         (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
         s.sampling.step = 1.3;
     }),
+    ("no sample for a step that would leave the volume", |s| (s.sampling.last, s.sampling.step) = (Last::None, 1.3)),
     ("steps classified as a whole", |s| {
         (s.sampling.classification, s.sampling.step) = (Classification::PreIntegrated, 1.7);
     }),

@@ -32,8 +32,12 @@ fn saved(mut runs: Vec<Run>, on_cpu: bool) -> Vec<Run> {
 fn savings_are_parts_of_rc_ert() {
     let runs = || vec![timed("nn-omni", 250, 4.0, 9.0), timed("rc-ert", 1000, 10.0, 12.0), timed("cpu", 9, 1.0, 1.0)];
     let found = saved(runs(), true);
-    let expected =
-        Saved { against: "rc-ert (ztest + copy)".into(), fragments: 0.75, time: Some(0.6), clock: Some(Clock::Cpu) };
+    let expected = Saved {
+        against: "rc-ert (ztest + copy)".into(),
+        fragments: Some(0.75),
+        time: Some(0.6),
+        clock: Some(Clock::Cpu),
+    };
     assert_eq!(found[0].saved, Some(expected.clone()));
     assert!((expected.efficiency().unwrap() - 0.8).abs() < 1e-12);
     assert_eq!((&found[1].saved, &found[2].saved), (&None, &None), "nothing is compared with itself");

@@ -52,8 +52,8 @@ pub fn expected_order(scene: &Scene) -> Option<f64> {
         _ if vanishes => 2.0,
         (Offset::Left, _) => 1.0,
         (Offset::Midpoint, Last::Partial) => 2.0,
-        // What the last sample stands for beyond the face is an error of the first order.
-        (Offset::Midpoint, Last::Full) => 1.0,
+        // What the last sample stands for beyond the face, or what is left out before it, is an error of the first order.
+        (Offset::Midpoint, Last::Full | Last::None) => 1.0,
     })
 }
 
@@ -143,6 +143,10 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
             && (sampling.offset == Offset::Midpoint || sampling.preintegrates())
             && sampling.last == Last::Full,
         "the volume is filled up to its faces, and the last sample stands for a whole step: order 1 instead of 2",
+    );
+    say(
+        colors && !vanishes && sampling.last == Last::None,
+        "what is left of a ray behind its last whole step is left out [Stegmaier05 §5]: an error of the first order",
     );
     say(
         colors && scene.transfer.jumps().next().is_some() && !sampling.preintegrates(),

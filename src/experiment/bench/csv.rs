@@ -97,7 +97,7 @@ fn fixed_fields(results: &Results, run: &Run) -> CsvFields {
     let mut put = |name: &str, value: String| row.push((name.to_string(), value));
     let error = run.error.as_ref();
     let saved = run.saved.as_ref();
-    put("saved_fragments", or_empty(saved.map(|s| s.fragments)));
+    put("saved_fragments", or_empty(saved.and_then(|s| s.fragments)));
     put("saved_time", or_empty(saved.and_then(|s| s.time)));
     put("culling_efficiency", or_empty(saved.and_then(Saved::efficiency)));
     put("structure_bytes", run.bytes.to_string());

@@ -113,6 +113,8 @@ pub enum Last {
     Full,
     /// What is left of the ray.
     Partial,
+    /// A whole step, and the ray ends before a step that would leave the volume [Stegmaier05 §5].
+    None,
 }
 
 /// How an opacity is brought from the reference length to the step.

@@ -7,6 +7,7 @@
 #define gl_FragCoord vec4(vec2(gl_GlobalInvocationID.x % 64, gl_GlobalInvocationID.x / 64) + 0.5, 0.0, 1.0)
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
 #include "shared/root.glsl"

@@ -5,6 +5,7 @@
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/section.glsl"
+#include "shared/free.glsl"
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

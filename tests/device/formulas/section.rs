@@ -1,4 +1,4 @@
-//! `glsl/shared/section.glsl` and `src/twin/section.rs`.
+//! `glsl/shared/section.glsl`, `free.glsl` and `src/twin/section.rs`.
 
 use std::sync::Arc;
 

@@ -6,6 +6,7 @@
 #define gl_FragCoord vec4(0.0)
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"
+#include "shared/pixel.glsl"
 #include "shared/samples.glsl"
 #include "shared/volume.glsl"
 #include "shared/transfer.glsl"

@@ -16,6 +16,7 @@ mod planner;
 mod projections;
 mod recorded;
 pub mod scenes;
+mod single_pass;
 mod textures;
 mod truth;
 
@@ -34,6 +35,7 @@ pub fn tests() -> Vec<Test> {
         recorded::tests(),
         textures::tests(),
         projections::tests(),
+        single_pass::tests(),
     ]
     .into_iter()
     .flatten()
