@@ -16,6 +16,8 @@ use drawn::drawn;
 /// Sums of some dozen samples in another order differ by so much in f64.
 const ROUNDING: f64 = 1e-12;
 
+type Change = fn(&mut Settings);
+
 fn scene(change: impl FnOnce(&mut Settings)) -> Scene {
     let mut settings = Settings::default();
     settings.volume.builtin = Some("shells:24".to_owned());
@@ -39,7 +41,7 @@ fn apart(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
 
 #[test]
 fn samples_are_those_of_passes_of_one_sample() {
-    let changes: [(&str, fn(&mut Settings)); 6] = [
+    let changes: [(&str, Change); 6] = [
         ("as it is", |_| {}),
         ("a surface of opacity", |s| s.transfer.preset = Some("surface".to_owned())),
         ("parts of steps", |s| (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial)),

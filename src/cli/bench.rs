@@ -14,7 +14,7 @@ use crate::experiment::bench::{self, BenchJob, keep, table};
 use crate::experiment::folder::write_pages;
 use crate::measure::{law, write};
 use crate::report::comparison::groups;
-use crate::report::verdict;
+use crate::report::{branching, verdict};
 use crate::scene::settings::{CELLS, EXTRA_FETCHES, MethodName, Settings};
 
 /// Every method on every scene: the main job
@@ -121,7 +121,8 @@ impl BenchCommand {
         let results = keep(&self.output, measured)?;
         let written = write_pages(&self.output, &[&bench::PAGES])?;
         output::warn(&results.runs);
-        let verdict = verdict(&groups(&results.runs));
+        let groups = groups(&results.runs);
+        let verdict = std::iter::once(verdict(&groups)).chain(branching(&groups)).collect::<Vec<_>>().join("\n");
         let text = format!("{}\n{verdict}\n\n{}", table(&results.runs), output::reports(&written));
         write::write_standard_output(text.as_bytes())?;
         lawful

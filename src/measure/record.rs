@@ -135,6 +135,12 @@ impl Run {
         self.method.parse().ok().and_then(method::find).is_some_and(Method::marks_sections)
     }
 
+    /// Whether its method's shader holds the whole ray; none where it runs on no device.
+    pub fn loops(&self) -> Option<bool> {
+        let method = self.method.parse().ok().and_then(method::find).filter(|method| method.on_device);
+        method.map(Method::loops)
+    }
+
     /// `bounds + copy`, or whichever of the two there is.
     pub fn form(&self) -> Option<String> {
         match (&self.cull, &self.mark) {

@@ -2,9 +2,10 @@
 //!
 //! 1. [`number`]: numbers as a reader wants them.
 //! 2. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
-//! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`]: what the runs come to, in sentences.
+//! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`], [`branching`]: what the runs come to, in sentences.
 //! 4. [`table`]: rows under columns, as text, CSV and HTML. [`html`]: a page and its pieces. [`plot`]: plots as SVG.
 
+pub mod branching;
 pub mod claim;
 pub mod comparison;
 pub mod cost;
@@ -13,4 +14,5 @@ pub mod number;
 pub mod plot;
 pub mod table;
 
+pub use branching::branching;
 pub use claim::{claims, verdict};

@@ -7,7 +7,7 @@ use depthleap::measure::{Results, Run, Timing};
 use depthleap::report::comparison::groups;
 use depthleap::report::cost::{CostRow, Sweep};
 use depthleap::report::plot::cost_svg;
-use depthleap::report::verdict;
+use depthleap::report::{branching, verdict};
 
 use crate::runs::{results, run};
 
@@ -93,6 +93,43 @@ fn verdict_is_made_from_the_runs() {
     runs.extend(other);
     let words = verdict(&groups(&runs));
     assert!(words.contains("in 1 of 2 scenes: nn-omni or nn-optimal saves 50 to 75 %"), "{words}");
+}
+
+/// A loop's fragments are rays, which are not compared with segments; its time is compared with the fastest of the others.
+#[test]
+fn loops_are_compared_by_their_time() {
+    let runs = |of_loop: f64| {
+        let timed = vec![
+            timed("rc-ert", 1000, 10.0, 12.0),
+            timed("nn-omni", 250, 4.0, 8.0),
+            timed("single-pass", 90, 9.0, 1.0),
+            timed("single-pass-omni", 90, of_loop, 1.0),
+            timed("cpu", 9, 0.5, 0.5),
+        ];
+        saved(timed, true)
+    };
+    let found = runs(3.0);
+    let of_loop = found[3].saved.as_ref().unwrap();
+    assert_eq!((of_loop.fragments, of_loop.efficiency()), (None, None));
+    assert!((of_loop.time.unwrap() - 0.7).abs() < 1e-12);
+    assert_eq!(
+        branching(&groups(&found)).unwrap(),
+        "On llvmpipe the fastest loop of a single pass (single-pass-omni) takes 0.75 times as long as the fastest ray caster of several \
+         passes (nn-omni): it is faster. Of the time of the latter 50 % are anything but main passes, which a loop has none of."
+    );
+    assert!(branching(&groups(&runs(5.0))).unwrap().contains("1.25 times as long"));
+    assert!(branching(&groups(&runs(5.0))).unwrap().contains("it is slower."));
+    // Two scenes.
+    let mut both = runs(3.0);
+    both.extend(runs(5.0).into_iter().map(|mut run| {
+        run.scene = "other".into();
+        run
+    }));
+    let words = branching(&groups(&both)).unwrap();
+    assert!(words.contains("0.75 to 1.25 times as long") && words.contains("faster in 1 of 2 scenes"), "{words}");
+    // Without a loop there is nothing to say.
+    assert_eq!(branching(&groups(&found[..2])), None);
+    assert_eq!(branching(&[]), None);
 }
 
 /// Runs with 0, 1 and 4 extra fetches; times of `nn-omni` by cost in times of `rc-ert`.
