@@ -23,8 +23,8 @@
 //! | `method` | text | `rc`, `rc-block`, `nn-omni`, ... |
 //! | `cull`, `mark` | text or null | what `auto` became; null where the method has no such choice |
 //! | `passes` | integer | N, main passes of the plan |
-//! | `fragments` | counts | samples that passed every per-fragment test, by precise occlusion query |
-//! | `invocations` | counts or null | fragment-shader invocations, by pipeline statistics; null where the driver has none that can be believed |
+//! | `fragments` | counts | samples that passed every per-fragment test, by precise occlusion query; of a method `single-pass...` each is a ray, and of compute shaders (`...+compute`), which no query counts, an invocation: one for each pixel that the box may cover |
+//! | `invocations` | counts or null | fragment-shader invocations, by pipeline statistics; of compute shaders those of all tiles of 8 x 8 pixels; null where the driver has none that can be believed |
 //! | `gpu_ms` | times or null | device time of each group of passes and `total`, milliseconds, by timestamps; null where the device has none |
 //! | `gpu_ms_per_pass` | {`main`, `intermediate`} of arrays, or null | the same, milliseconds for each pass |
 //! | `frame_ms` | number or null, ms | wall time of a frame |
@@ -43,7 +43,7 @@
 //! | `warnings` | array of text | what may make the picture mislead: empty, imprecise, reoriented |
 //! | `texture` | texture or null | how the volume was kept on the device: see [`TextureRecord`]; null for `cpu` and where no ray meets the volume |
 //! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
-//! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
+//! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; its `fragments` is null for methods `single-pass...`, whose fragments are rays; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the
