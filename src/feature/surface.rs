@@ -19,9 +19,12 @@ pub const ISO_SURFACE: Feature = Feature {
     })
 };
 
-/// What rays gather: colours, or places on a surface.
+/// What rays gather: colours, or places on a surface that is lit afterwards.
 pub fn gathered(context: &Context) -> Resource {
-    if context.has(&ISO_SURFACE) { resource::SURFACE_HIT } else { resource::ACCUMULATED }
+    match context.has(&ISO_SURFACE) && !context.method.loops() {
+        true => resource::SURFACE_HIT,
+        false => resource::ACCUMULATED,
+    }
 }
 
 /// Of `lighting.frag`: how the place of a surface is found.

@@ -142,10 +142,13 @@ impl Runs<'_> {
         let twin = self.stage.twin(&scene, method.papers);
         let undecided = twin.undecided.iter().filter(|undecided| **undecided).count() as u64 - twin.outline;
         self.undecided = self.undecided.max(undecided);
-        let most = match projection::of(&scene.settings).ends {
-            Ends::Opaque | Ends::Never(_) => UNDECIDED,
-            Ends::Reached => UNDECIDED_AT_AN_EXTREME,
-        };
+        // A loop asks after every sample whether the ray has ended, which f32 cannot tell each time.
+        let often = if method.loops() { 2 } else { 1 };
+        let most = often
+            * match projection::of(&scene.settings).ends {
+                Ends::Opaque | Ends::Never(_) => UNDECIDED,
+                Ends::Reached => UNDECIDED_AT_AN_EXTREME,
+            };
         let outline = if scene.polygons.is_empty() { OUTLINE } else { OUTLINE_OF_POLYGONS };
         if undecided > most || twin.outline > outline {
             return Err(format!("{undecided} pixels are undecided, and {} on the outline", twin.outline));
