@@ -61,7 +61,7 @@ pub fn large(scene: &Scene) -> bool {
 const SIDES: usize = 3;
 
 /// The [`VIEWS`] that a test sees a scene from, each with its number.
-pub fn views_of(scene: &Scene, turn: usize) -> Vec<(usize, (&'static str, [f64; 3], [f64; 3]))> {
+pub fn views_of(scene: &Scene, turn: usize) -> Vec<(usize, NamedView)> {
     let all = VIEWS.into_iter().enumerate();
     match large(scene) {
         true => all.skip(turn % SIDES).step_by(SIDES).collect(),
@@ -143,6 +143,9 @@ pub fn shapes() -> Vec<&'static Method> {
 pub fn lawful() -> impl Iterator<Item = &'static Method> {
     METHODS.into_iter().filter(|method| method.under_the_law())
 }
+
+/// A view by its name: eye and target.
+pub type NamedView = (&'static str, [f64; 3], [f64; 3]);
 
 /// What one scene keeps on the device for all its views and methods, and compiled pipelines for the next one too.
 pub struct Stage {
