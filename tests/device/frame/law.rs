@@ -9,13 +9,13 @@ use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{
-    Accumulate, Classification, ClipSettings, Find, GradientTexture, Gradients, Last, LightSettings, MeshSettings,
-    MethodName, Offset, Refine, Settings,
+    Accumulate, CELLS, Classification, ClipSettings, Find, GradientTexture, Gradients, Last, LightSettings,
+    MeshSettings, MethodName, Offset, Refine, Settings,
 };
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, scene, seen, views_of};
+use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, scene, seen};
 use crate::harness::{Need, Test, least, share, some_forms, test};
 
 type Change = fn(&mut Settings);
@@ -140,14 +140,7 @@ pub fn tests() -> Vec<Test> {
 /// ones, a view has all of them in one scene or another.
 fn law(device: &Arc<Device>, scene: &Scene, number: usize) {
     let mut stage = Stage::new(device);
-    // Large volumes are seen from further sides by `orbit`.
-    let mut views = views_of(scene, number);
-    let first = views[0].0;
-    // Real volumes have no other driver that goes through all views.
-    if scene.settings.volume.builtin.is_some() {
-        views.retain(|(i, _)| drawn_here(*i, number));
-    }
-    for (i, view) in views {
+    for (i, view) in VIEWS.into_iter().enumerate().filter(|(i, _)| drawn_here(scene, *i, number)) {
         let scene = seen(scene, view);
         let ert = by(&scene, method::RC_ERT.name());
         let rule = stage.shoot(&ert, method::papers_form(method::RC_ERT.name()));
@@ -155,10 +148,10 @@ fn law(device: &Arc<Device>, scene: &Scene, number: usize) {
         for method in share(lawful(), number / VIEWS.len()) {
             let mut scene = by(&scene, method.name());
             change(&mut scene.settings);
-            // A structure for each view of a large volume takes seconds: in small cells for the first of them.
+            // A structure for each view of a large volume takes seconds: in the smallest cells for every other one.
             let per_view = method.distance().is_some_and(|kind| Lookup::new(&scene, kind).view.is_some());
-            if large(&scene) && i != first && per_view {
-                scene.settings.method.cell = 4;
+            if large(&scene) && per_view {
+                scene.settings.method.cell = CELLS[number % 2];
             }
             let mut some = forms(device, method.name());
             some.retain(|form| trusted(device, method.name(), *form));
@@ -185,13 +178,14 @@ fn leaps(stage: &mut Stage, scene: &Scene, rule: &'static Method, change: fn(&mu
     }
 }
 
-/// Whether a view is drawn on this driver: where another one goes through all of them, every other one; where others do more of
-/// everything, one of those which they leave out.
-fn drawn_here(view: usize, number: usize) -> bool {
+/// Whether a view is drawn on this driver: of a large volume one, since `orbit` sees it from further sides; of other real ones all, of
+/// built-in ones every other one where another driver goes through all of them, and where others do more of everything, one of those
+/// which they leave out.
+fn drawn_here(scene: &Scene, view: usize, number: usize) -> bool {
     match some_forms() {
-        _ if least() => view == number % VIEWS.len(),
-        true => !(view + number).is_multiple_of(2),
-        false => true,
+        _ if large(scene) || least() => view == number % VIEWS.len(),
+        true if scene.settings.volume.builtin.is_some() => !(view + number).is_multiple_of(2),
+        _ => true,
     }
 }
 
