@@ -14,7 +14,7 @@ use depthleap::probe::{Case, rig};
 use depthleap::projection::{PROJECTIONS, Projection};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, Filter, MethodName};
+use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 
@@ -94,6 +94,13 @@ pub fn plans() -> Vec<(String, Plan)> {
     for method in METHODS {
         for like in likes() {
             every_form(method, &scene(method.name(), like), &format!("{like:?}"));
+        }
+    }
+    for method in METHODS {
+        for accumulate in [Accumulate::Rgba16f, Accumulate::Rgba8] {
+            let mut scene = scene(method.name(), likes()[0]);
+            scene.settings.image.accumulate = accumulate;
+            every_form(method, &scene, &format!("{accumulate:?}"));
         }
     }
     for (name, scene) in matrix::scenes() {

@@ -1,5 +1,7 @@
 //! Frames of a camera that goes around the volume: which structure each of them read, and what it saved.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use crate::error::Result;
@@ -24,7 +26,8 @@ pub struct Orbit {
 /// # Errors
 /// As [`Runner::measure`].
 pub fn orbits(runner: &mut Runner, measured: &mut [Measured], count: usize, progress: &dyn Fn(&str)) -> Result<()> {
-    let mut rule: Option<Vec<u64>> = None;
+    // By the method with the same samples that skips nothing.
+    let mut rules: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for one in measured.iter_mut().filter(|one| one.method.on_device) {
         let orbit = orbit(runner, &one.run.settings.method, count, progress)?;
         one.run.orbit = Some(orbit.frames);
@@ -32,10 +35,12 @@ pub fn orbits(runner: &mut Runner, measured: &mut [Measured], count: usize, prog
         if !one.method.under_the_law() {
             continue;
         }
-        match &rule {
-            None => rule = Some(orbit.pictures),
-            Some(rule) => {
-                let differing = rule.iter().zip(&orbit.pictures).filter(|(a, b)| a != b).count() as u64;
+        match rules.entry(one.method.unskipped().name) {
+            Entry::Vacant(place) => {
+                place.insert(orbit.pictures);
+            }
+            Entry::Occupied(rule) => {
+                let differing = rule.get().iter().zip(&orbit.pictures).filter(|(a, b)| a != b).count() as u64;
                 one.differing_frames = Some(differing);
             }
         }

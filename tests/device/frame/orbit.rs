@@ -52,9 +52,12 @@ const VOLUMES: [(&str, &str, u32); 20] = [
 /// Fused forms, which read the same structures, are run in every so many views.
 const FUSED: usize = 4;
 
-/// Methods that read distances, with the kind.
+/// Methods of several passes that read distances, with the kind.
 fn methods() -> impl Iterator<Item = (&'static Method, Distance)> {
-    METHODS.into_iter().filter_map(|method| method.distance().map(|distance| (method, distance)))
+    METHODS
+        .into_iter()
+        .filter(|method| !method.loops())
+        .filter_map(|method| method.distance().map(|distance| (method, distance)))
 }
 
 pub fn tests() -> Vec<Test> {
