@@ -12,7 +12,6 @@ use std::sync::Arc;
 
 use depthleap::feature::ENVIRONMENT;
 use depthleap::method::{METHODS, RC_ERT};
-use depthleap::part::Work;
 use depthleap::plan::{Plan, plan, warnings};
 use depthleap::read;
 use depthleap::scene::environment::Picture;
@@ -233,10 +232,7 @@ fn what_has_no_meaning_with_an_environment_is_refused() {
 /// Whether a plan has anything of an environment: resources, or defines of its shaders.
 fn has_environment(plan: &Plan) -> [bool; 2] {
     let named = plan.resources().iter().any(|resource| resource.name().starts_with("environment"));
-    let mut shaders = plan.steps.iter().filter_map(|step| match &step.work {
-        Work::Draw(draw) => draw.shader.as_ref(),
-        _ => None,
-    });
+    let mut shaders = plan.steps.iter().filter_map(|step| step.work.shader());
     let defined = shaders.any(|shader| shader.defines.contains("ENVIRONMENT"));
     [named, defined]
 }

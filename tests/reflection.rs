@@ -133,10 +133,11 @@ fn specialization_constants_have_their_names_and_ids() {
         ("EXTRA_FETCHES", 11),
         ("GREY", 14),
         ("PROJECTION", 15),
+        ("LAST_NONE", 27),
     ]);
     assert_eq!(constants("main_pass.frag"), main);
     let skipping = named(&[("EXIT_LOOKAHEAD", 6), ("CELL", 7), ("OCTANTS", 8), ("LOOKUPS", 9), ("SPANS", 12)]);
-    let projection = named(&[("PROJECTION", 15)]);
+    let projection = named(&[("PROJECTION", 15), ("LAST_NONE", 27)]);
     let intermediate = [&main[..1], &skipping[..], &projection[..]].concat();
     assert_eq!(constants("near_neighbor.frag:MARK_FRAGDEPTH"), intermediate);
     let mut fused = [&main[..], &skipping[..], &named(&[("BLEND_ROUNDING", 10)])[..]].concat();
