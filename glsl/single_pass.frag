@@ -7,45 +7,6 @@
 //@takes [VALUES], [SURFACE], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [GRADIENTS], [ENVIRONMENT]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED]
 
-#define OWN_RAYS
-
-#include "shared/frame.glsl"
-#include "shared/double_float.glsl"
-#include "shared/ray.glsl"
-#include "shared/pixel.glsl"
-#include "shared/layer.glsl"
-#include "shared/samples.glsl"
-#include "shared/volume.glsl"
-#include "shared/opacity.glsl"
-#include "shared/projection.glsl"
-#ifdef PREINTEGRATED
-#include "shared/preintegrated.glsl"
-#elif !defined(VALUES)
-#include "shared/transfer.glsl"
-#endif
-#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION)
-#include "shared/gradient.glsl"
-#endif
-#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION) && !defined(SHOWS_NORMAL)
-#include "shared/phong.glsl"
-#endif
-#ifdef ENVIRONMENT
-#include "shared/environment.glsl"
-#endif
-#ifdef SURFACE
-#include "shared/surface.glsl"
-#include "shared/root.glsl"
-#include "shared/surface_color.glsl"
-#endif
-#ifdef LEAP_DISTANCES
-#include "shared/free.glsl"
-#include "shared/distance.glsl"
-#elif defined(LEAP_BLOCKS)
-#include "shared/block.glsl"
-#include "shared/visible_block.glsl"
-#endif
-#include "shared/leap.glsl"
-#include "shared/shade.glsl"
 #include "shared/single_pass.glsl"
 
 #ifdef GOES_ON

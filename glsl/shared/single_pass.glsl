@@ -1,11 +1,50 @@
 // The whole ray in one loop [Stegmaier05 §3, §5]: samples are taken until the ray leaves the volume or needs no more of them.
-// Twin: src/twin/single_pass.rs. Needs what shade.glsl needs, and that; with SURFACE surface_color.glsl.
+// Twin: src/twin/single_pass.rs. It includes all it needs, which two shaders would have to list alike.
 //
 // LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing.
 //
 // Departures: 1. positions come from the index, where the paper adds steps up. 2. The end of the ray is drawn, unless `last = "none"`
 // asks for the paper's way, which stops before the volume is left. 3. T is tested after every sample; multi-pass ray casters test it
 // between passes only.
+
+#define OWN_RAYS
+
+#include "shared/frame.glsl"
+#include "shared/double_float.glsl"
+#include "shared/ray.glsl"
+#include "shared/pixel.glsl"
+#include "shared/layer.glsl"
+#include "shared/samples.glsl"
+#include "shared/volume.glsl"
+#include "shared/opacity.glsl"
+#include "shared/projection.glsl"
+#ifdef PREINTEGRATED
+#include "shared/preintegrated.glsl"
+#elif !defined(VALUES)
+#include "shared/transfer.glsl"
+#endif
+#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION)
+#include "shared/gradient.glsl"
+#endif
+#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION) && !defined(SHOWS_NORMAL)
+#include "shared/phong.glsl"
+#endif
+#ifdef ENVIRONMENT
+#include "shared/environment.glsl"
+#endif
+#ifdef SURFACE
+#include "shared/surface.glsl"
+#include "shared/root.glsl"
+#include "shared/surface_color.glsl"
+#endif
+#ifdef LEAP_DISTANCES
+#include "shared/free.glsl"
+#include "shared/distance.glsl"
+#elif defined(LEAP_BLOCKS)
+#include "shared/block.glsl"
+#include "shared/visible_block.glsl"
+#endif
+#include "shared/shade.glsl"
 
 // What a ray holds before its first sample.
 vec4 begin_ray(Ray ray) {

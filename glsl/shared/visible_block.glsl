@@ -1,4 +1,4 @@
-// Which blocks show something [KW03 §2.3]. Twin: src/twin/block_skip.rs. Needs frame.glsl, samples.glsl and block.glsl.
+// Which blocks show something [KW03 §2.3]. Twins: src/twin/block_skip.rs, and of `free_from` src/twin/near_neighbor.rs. Needs frame.glsl, samples.glsl and block.glsl.
 
 layout(set = 0, binding = 8, std430) readonly buffer CellRange {
     vec2 ranges[];
@@ -40,4 +40,16 @@ bool way_visible(Ray ray, uint i) {
 // Samples after the one at `place`, in `block`, that lie in the same block, as far as f32 can tell.
 uint samples_in_block(Ray ray, Place place, ivec3 block) {
     return uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0));
+}
+
+// Samples from `i` on that show nothing: those that lie in the same block, where that is empty. For loops that leap.
+uint free_from(Ray ray, uint i) {
+    Place place = place_at(ray, steps_to(i));
+    ivec3 block = cell_of(place) / BLOCK;
+    if (block_visible(block)) {
+        return 0u;
+    }
+    uint others = samples_in_block(ray, place, block);
+    // What lies between the last of them and the next sample need not be free.
+    return SPANS && way_visible(ray, i + others) ? others : others + 1u;
 }

@@ -119,9 +119,11 @@ impl GpuFrame {
         Ok(run)
     }
 
-    /// The queue that a step runs on.
+    /// The queue that a step runs on: that of compute work for compute shaders, unless their steps could not be timed there.
     fn queue(&self, step: &CompiledStep) -> &Queue {
-        if step.pixels.is_some() { &self.device.compute } else { &self.device.graphics }
+        let (graphics, compute) = (&self.device.graphics, &self.device.compute);
+        let timed = compute.timestamp_valid_bits > 0 || graphics.timestamp_valid_bits == 0;
+        if step.pixels.is_some() && timed { compute } else { graphics }
     }
 
     /// The steps that are submitted together: all of them, or up to each count of rays, and to each change of queues.

@@ -37,20 +37,20 @@ pub fn branching(groups: &[RunGroup]) -> Option<String> {
     };
     let (loops, passes) = (names(|rivals| &rivals.one_loop), names(|rivals| &rivals.passes));
     let mut text = format!(
-        "On {device} the fastest loop of a single pass ({loops}) takes {} times as long as the fastest ray caster of several passes \
-         ({passes}): {scenes}.",
+        "On {device}, structures built, the fastest loop of a single pass ({loops}) takes {} times as long as the fastest ray caster \
+         of several passes ({passes}): {scenes}.",
         words(least, most, 2)
     );
     if let Some((least, most)) = range(rivals.iter().filter_map(|rivals| rivals.beside_main)) {
         let share = words(100.0 * least, 100.0 * most, 0);
         text.push_str(&format!(
-            " Of the time of the latter {share} % are anything but main passes, which a loop has none of."
+            " Of the latter's time {share} % goes into what a loop does not have: all but main passes."
         ));
     }
     Some(text)
 }
 
-/// Of a scene; none where it has no run of `rc-ert`, by whose clock times are compared.
+/// The rivals of a scene; none where it has no run of `rc-ert`, by whose clock times are compared.
 fn rivals(group: &RunGroup) -> Option<Rivals> {
     let clock = group.runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock)?;
     let timed = |loops: bool| {
@@ -68,6 +68,7 @@ fn rivals(group: &RunGroup) -> Option<Rivals> {
     })
 }
 
+/// The part of a frame's time on the device that does not go into main passes.
 fn beside_main(run: &Run) -> Option<f64> {
     let times = run.gpu_ms.as_ref()?;
     let main = times.groups().find(|(name, _)| *name == "main")?.1.value;

@@ -198,7 +198,8 @@ impl Sheet {
                 let clock = saved.clock.map_or("", Clock::words);
                 self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
             }
-            None => self.absent("not timed, no fragment saved, or fragments that are rays, not segments of them"),
+            None if saved.fragments.is_none() => self.absent("a fragment is a ray here, and no segment of one"),
+            None => self.absent("not timed, or no fragment was saved"),
         }
     }
 

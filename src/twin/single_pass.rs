@@ -1,6 +1,6 @@
 //! Twin of `glsl/single_pass.frag` and `glsl/single_pass.comp`: the whole ray in one loop [Stegmaier05 §3, §5].
 //!
-//! Leaps are those of `glsl/shared/leap.glsl`. They leave out samples that show nothing, so that it does not matter to the pixel
+//! Leaps are those of `glsl/shared/distance.glsl` and `visible_block.glsl`. They leave out samples that show nothing, so that it does not matter to the pixel
 //! how far f32 leaps.
 
 use super::{Effect, Pixel, Twin, direction, entry, start};

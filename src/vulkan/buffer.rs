@@ -53,7 +53,7 @@ impl Buffer {
         check_limits(device, &info)?;
         let families = [device.graphics.family, device.compute.family];
         let create = vk::BufferCreateInfo::default().size(info.size).usage(info.usage);
-        // Frames and builds of both queues read them; for buffers that costs nothing.
+        // Both queues use them, and none hands them over.
         let create = if families[0] == families[1] {
             create
         } else {
