@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::number::{milliseconds, percent, thousands};
 use super::table::{Cell, Column, Table};
-use crate::measure::record::{Clock, Run, Saved};
+use crate::measure::record::{Clock, CountsRecord, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
 use crate::scene::settings::PartialSegments;
@@ -134,6 +134,9 @@ const COLUMNS: [(&str, &str, bool); 15] = [
     ("largest", "error", true),
 ];
 
+/// Why counts of a loop are not compared with those of passes.
+const OF_RAYS: &str = "a fragment is a ray here, not a segment of one";
+
 /// The comparison of one group.
 pub fn table(group: &RunGroup) -> Table {
     let head =
@@ -171,9 +174,9 @@ impl Sheet {
             },
             value(thousands(u64::from(run.passes))),
             value(thousands(run.fragments.main)),
-            self.share(run.fragments.main, baseline.map(|b| b.fragments.main)),
+            self.part_of(run, baseline, |counts| counts.main),
             value(thousands(run.fragments.intermediate)),
-            self.share(run.fragments.intermediate, baseline.map(|b| b.fragments.intermediate)),
+            self.part_of(run, baseline, |counts| counts.intermediate),
             match &run.invocations {
                 Some(counts) => value(thousands(counts.main.saturating_add(counts.intermediate))),
                 None => self.absent("no count of shader invocations that can be believed on this device"),
@@ -198,8 +201,16 @@ impl Sheet {
                 let clock = saved.clock.map_or("", Clock::words);
                 self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
             }
-            None if saved.fragments.is_none() => self.absent("a fragment is a ray here, and no segment of one"),
+            None if saved.fragments.is_none() => self.absent(OF_RAYS),
             None => self.absent("not timed, or no fragment was saved"),
+        }
+    }
+
+    /// A run's fragments as a part of the baseline's.
+    fn part_of(&mut self, run: &Run, baseline: Option<&Run>, of: fn(&CountsRecord) -> u64) -> Cell {
+        match run.loops() {
+            Some(true) => self.absent(OF_RAYS),
+            _ => self.share(of(&run.fragments), baseline.map(|baseline| of(&baseline.fragments))),
         }
     }
 
