@@ -4,6 +4,7 @@
 //! how far f32 leaps.
 
 use super::{Effect, Pixel, Twin, direction, entry, start};
+use crate::math::ray::cut_interval;
 
 /// Joins all samples of the part of the ray that is drawn with what the pixel has already.
 pub fn single_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
@@ -22,13 +23,20 @@ pub fn single_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     }
 }
 
-/// The same for a pixel of which no box says whether its ray meets the volume.
+/// What the double-floats of shaders take from the sides of the volume's box, relative.
+const BOX_ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// The same for a pixel of which no box says whether its ray meets the volume; undecided where a ray runs so near to a face that
+/// rounding decides.
 pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
-    let direction = twin.rays.direction(pixel.column, pixel.row);
-    match twin.scene.interval(&twin.rays, direction) {
-        Some(_) => single_pass(twin, pixel, pass),
-        None => Effect::Silent,
-    }
+    let (scene, rays) = (twin.scene, &twin.rays);
+    let direction = rays.direction(pixel.column, pixel.row);
+    let meets = |grown: f64| {
+        let half = 0.5 * (1.0 + grown) * scene.field.extent();
+        cut_interval(rays.eye, direction, half, rays.near, scene.clip_planes()).is_some()
+    };
+    pixel.undecided |= meets(BOX_ROUNDING) != meets(-BOX_ROUNDING);
+    if meets(0.0) { single_pass(twin, pixel, pass) } else { Effect::Silent }
 }
 
 impl Twin<'_> {
