@@ -74,12 +74,20 @@ impl Test {
 /// commands make of pictures and counts.
 const DRIVER_ONLY: &str = "DEPTHLEAP_DRIVER_ONLY";
 
-/// Set for a driver beside another one that draws every scene in every form.
+/// Set for a driver beside another one that draws scenes in more forms.
 const SOME_FORMS: &str = "DEPTHLEAP_SOME_FORMS";
+
+/// Set where every scene of the matrix is to be drawn in every form by every method, which takes long.
+const ALL_FORMS: &str = "DEPTHLEAP_ALL_FORMS";
 
 /// Whether tests that go over all forms of many scenes draw each scene in one of them, and another scene in another.
 pub fn some_forms() -> bool {
     std::env::var_os(SOME_FORMS).is_some()
+}
+
+/// Whether the matrix leaves no form and no loop to the next scene.
+pub fn all_forms() -> bool {
+    std::env::var_os(ALL_FORMS).is_some() && !some_forms()
 }
 
 /// Whether other drivers do more of everything: tests that take minutes here are left to them.
@@ -146,6 +154,9 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         Ok(device) => {
             let info = &device.info;
             eprintln!("device under test: {}, {} {}", info.name, info.driver_name, info.driver_info);
+            if !all_forms() {
+                eprintln!("LEFT TO OTHER SCENES: every other form of a method and loop in the matrix ({ALL_FORMS})");
+            }
             if some_forms() {
                 eprintln!(
                     "LEFT TO ANOTHER DRIVER: all forms of a method in one scene; here another one in each ({SOME_FORMS})"

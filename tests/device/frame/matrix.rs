@@ -1,5 +1,8 @@
-//! The matrix: every method in every form on every scene of `tests/matrix/scenes.rs`. Whatever is in its tables is in it:
-//! nothing here names a method, a form or a feature.
+//! The matrix: every method on every scene of `tests/matrix/scenes.rs`, in every form on one or another. Whatever is in its tables is in
+//! it: nothing here names a method, a form or a feature.
+//!
+//! The forms of a method take turns, so that a scene has every other one and two scenes on end have all of them; so do loops, whose
+//! shaders take most of the time. `DEPTHLEAP_ALL_FORMS` draws every scene in every form by every loop.
 //!
 //! Of each frame: it runs without a message of the validation layer (the harness sees to that); it is its f64 twin's;
 //! methods that end rays have one picture to the bit, those that end none have another; the fragments of a method are the
@@ -18,8 +21,8 @@ use depthleap::vulkan::{Device, vk};
 
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
 use super::matrix_scenes;
-use super::scenes::{Shot, Stage, checked, forms, forms_here, loops_in_turn, right_forms};
-use crate::harness::{Test, least, share, some_forms, test};
+use super::scenes::{Shot, Stage, checked, forms, forms_in_turn, loops_in_turn, right_forms};
+use crate::harness::{Test, all_forms, least, share, some_forms, test};
 
 /// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
 const DEPTHS: [DepthFormat; 3] = [DepthFormat::D32, DepthFormat::D24, DepthFormat::D16];
@@ -75,12 +78,12 @@ fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], num
         // What has to come out, by the method with the same samples that skips nothing.
         let mut rules = BTreeMap::new();
         let methods = matrix_scenes::methods(&scene);
-        let here =
-            |method: &&Method| !some_forms() || depths.len() > 1 || !method.loops() || loops_in_turn(method, number);
-        for method in share(methods.filter(here), number) {
+        let every = all_forms() || depths.len() > 1;
+        let here = |method: &&Method| every || !method.loops() || loops_in_turn(method, number + i);
+        for (turn, method) in share(methods.filter(here), number).into_iter().enumerate() {
             let rule: &Shot = rules.entry(method.unskipped().name).or_insert_with(|| runs.rule(&scene, method));
             assert!(rule.picture.iter().any(|pixel| pixel[3] > 0.0), "{view}: nothing shows");
-            let forms = forms_from(i, device, &matrix_scenes::by(&scene, method), number, depths.len() > 1);
+            let forms = forms_from(i, device, &matrix_scenes::by(&scene, method), number + turn, every);
             let held = runs.in_forms(&scene, method, forms, &depths, rule);
             held.unwrap_or_else(|what| panic!("{}, {view}: {what}", method.name));
         }
@@ -98,11 +101,14 @@ fn left_out(view: usize, number: usize, depths: &[DepthFormat]) -> bool {
     }
 }
 
-/// The forms that a scene by a method is drawn in: from within in one of them that follows from the scene's number, from outside in all
-/// of them or, where another driver draws in all, in one, but for scenes whose marks differ from those of others.
-fn forms_from(view: usize, device: &Arc<Device>, scene: &Scene, number: usize, every: bool) -> Vec<Option<Form>> {
-    let forms = if every { right_forms(device, scene.settings.method.name) } else { forms_here(device, scene) };
-    if view == 0 { forms } else { vec![forms[number % forms.len()]] }
+/// The forms that a scene by a method is drawn in: from within in one of them by `turn`; from outside in `every` one, else in every other
+/// one from the first or second on by `turn`, or in a single one where other drivers have more of them.
+fn forms_from(view: usize, device: &Arc<Device>, scene: &Scene, turn: usize, every: bool) -> Vec<Option<Form>> {
+    let forms = match every {
+        true => right_forms(device, scene.settings.method.name),
+        false => forms_in_turn(device, scene, turn),
+    };
+    if view == 0 { forms } else { vec![forms[turn % forms.len()]] }
 }
 
 struct Runs<'a> {
