@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [LEAP_BLOCKS | LEAP_DISTANCES], [ENDLESS], [GOES_ON], [HOLES | PREINTEGRATED], [PLANES]
-//@takes [VALUES], [SURFACE], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [GRADIENTS], [ENVIRONMENT]
+//@takes [VALUES], [SURFACE], [TRANSPARENT], [IN_VOLUME], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [GRADIENTS], [ENVIRONMENT]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED]
 
 #include "shared/single_pass.glsl"

@@ -57,12 +57,9 @@ float root_between(vec4 c, float sign, float from, float to) {
     return to;
 }
 
-// The first s in [0, 1] at which `sign` times the cubic is not below 0; more than 1 where there is none.
-float first_root(vec4 c, float sign) {
-    if (sign * c.x >= 0.0) {
-        return 0.0;
-    }
-    // Where it turns: roots of its derivative, in the form without cancellation.
+// Where a cubic turns in [0, 1], rising; more than 1 where it does not.
+vec2 turns_of(vec4 c) {
+    // Roots of its derivative, in the form without cancellation.
     vec2 turns = vec2(2.0);
     float a = 3.0 * c.w;
     float b = 2.0 * c.z;
@@ -73,6 +70,15 @@ float first_root(vec4 c, float sign) {
         found = mix(found, vec2(2.0), notEqual(clamp(found, 0.0, 1.0), found));
         turns = vec2(min(found.x, found.y), max(found.x, found.y));
     }
+    return turns;
+}
+
+// The first s in [0, 1] at which `sign` times the cubic is not below 0; more than 1 where there is none.
+float first_root(vec4 c, float sign) {
+    if (sign * c.x >= 0.0) {
+        return 0.0;
+    }
+    vec2 turns = turns_of(c);
     float from = 0.0;
     for (int piece = 0; piece < 3; ++piece) {
         float to = piece < 2 ? min(turns[piece], 1.0) : 1.0;
@@ -87,34 +93,65 @@ float first_root(vec4 c, float sign) {
     return 2.0;
 }
 
+// A walk along a ray from cell to cell.
+struct CellWalk {
+    // Where it began, and how far it has come, in steps.
+    Place begin;
+    float at;
+    // Voxels that a step goes along each axis.
+    vec3 stride;
+    // The lowest voxel of the cell that comes next.
+    vec3 below;
+};
+
+// The part of a ray in one cell.
+struct CellPart {
+    // The cell's lowest voxel.
+    vec3 below;
+    // Its begin and end, in steps from where the walk began, and as weights between the cell's voxels.
+    vec2 steps;
+    vec3 from;
+    vec3 to;
+};
+
+CellWalk walk_from(Ray ray, float steps) {
+    Place begin = place_at(ray, steps);
+    return CellWalk(begin, 0.0, ray.step_vector * frame.dims.xyz, begin.below);
+}
+
+// The next part of a walk that is so many steps long.
+CellPart next_part(inout CellWalk walk, float length) {
+    bvec3 up = greaterThan(walk.stride, vec3(0.0));
+    vec3 passed = walk.below - walk.begin.below;
+    // Where the ray leaves the cell, on each axis.
+    vec3 face = passed + mix(vec3(0.0), vec3(1.0), up);
+    vec3 leaves = mix((face - walk.begin.weight) / walk.stride, vec3(UNBOUNDED), equal(walk.stride, vec3(0.0)));
+    float leave = clamp(min(leaves.x, min(leaves.y, leaves.z)), walk.at, length);
+    vec3 from = clamp(walk.begin.weight + walk.at * walk.stride - passed, 0.0, 1.0);
+    vec3 to = clamp(walk.begin.weight + leave * walk.stride - passed, 0.0, 1.0);
+    CellPart part = CellPart(walk.below, vec2(walk.at, leave), from, to);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (leaves[axis] <= leave) {
+            walk.below[axis] += up[axis] ? 1.0 : -1.0;
+        }
+    }
+    walk.at = leave;
+    return part;
+}
+
 // Steps to the first place between two others, in steps, at which the field is not below `level`, or with `sign` -1 not above it;
-// the second one where rounding hides it. Walks from cell to cell.
+// the second one where rounding hides it.
 float first_at(Ray ray, vec2 between, float level, float sign) {
-    Place begin = place_at(ray, between.x);
-    vec3 stride = ray.step_vector * frame.dims.xyz;
-    bvec3 up = greaterThan(stride, vec3(0.0));
+    CellWalk walk = walk_from(ray, between.x);
     float length = between.y - between.x;
-    vec3 below = begin.below;
-    float at = 0.0;
-    while (at < length) {
-        // Where the ray leaves the cell, on each axis.
-        vec3 face = (below - begin.below) + mix(vec3(0.0), vec3(1.0), up);
-        vec3 leaves = mix((face - begin.weight) / stride, vec3(UNBOUNDED), equal(stride, vec3(0.0)));
-        float leave = clamp(min(leaves.x, min(leaves.y, leaves.z)), at, length);
-        vec3 from = clamp(begin.weight + at * stride - (below - begin.below), 0.0, 1.0);
-        vec3 to = clamp(begin.weight + leave * stride - (below - begin.below), 0.0, 1.0);
+    while (walk.at < length) {
+        CellPart part = next_part(walk, length);
         float corners[8];
-        corners_of(below, level, corners);
-        float root = first_root(cubic_of(corners, from, to - from), sign);
+        corners_of(part.below, level, corners);
+        float root = first_root(cubic_of(corners, part.from, part.to - part.from), sign);
         if (root <= 1.0) {
-            return between.x + mix(at, leave, root);
+            return between.x + mix(part.steps.x, part.steps.y, root);
         }
-        for (int axis = 0; axis < 3; ++axis) {
-            if (leaves[axis] <= leave) {
-                below[axis] += up[axis] ? 1.0 : -1.0;
-            }
-        }
-        at = leave;
     }
     return between.y;
 }

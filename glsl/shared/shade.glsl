@@ -1,6 +1,6 @@
 // What samples bring to their ray. Twin: src/twin/segment.rs, of SURFACE src/twin/surface.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
-// opacity.glsl and projection.glsl. SURFACE (with VALUES): surface.glsl. LIT: each sample is lit by its
+// opacity.glsl and projection.glsl. SURFACE (with VALUES, unless IN_VOLUME): surface.glsl. LIT: each sample is lit by its
 // gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl. GRADIENTS: that and its value are in one texture.
 
 #if !defined(PREINTEGRATED) && !defined(VALUES)
@@ -33,7 +33,12 @@ float extent_of_sample(Ray ray, uint i) {
 #endif
 }
 
-#ifdef PREINTEGRATED
+#endif
+
+#if defined(SURFACE) && !defined(IN_VOLUME)
+// Samples tell where surfaces are, and have no colour.
+#elif defined(PREINTEGRATED)
+#ifndef SURFACE
 // The value at sample `i`, or at the exit point, on the table's axes.
 float node_at(Ray ray, uint i) {
     return node_of(sample_volume(ray, min(steps_to(i), ray.steps)));
@@ -47,6 +52,7 @@ vec4 shade_span(Ray ray, uint i, inout float front) {
     front = back;
     return color;
 }
+#endif
 #elif defined(VALUES)
 // What sample `i` brings to its ray.
 vec4 shade_sample(Ray ray, uint i) {
@@ -57,13 +63,9 @@ vec4 shade_sample(Ray ray, uint i) {
     return value_sample(sample_volume(ray, steps_to(i)), extent_of_sample(ray, i), all);
 }
 #else
-// Premultiplied colour of sample `i`.
-vec4 shade_sample(Ray ray, uint i) {
-    if (in_hole(ray, i)) {
-        return no_sample();
-    }
-    float clear;
-#ifdef GRADIENTS
+// Colour of sample `i`, not premultiplied, with the opacity of a reference length; `clear` is 1 - opacity.
+vec4 color_of_sample(Ray ray, uint i, out float clear) {
+#if defined(GRADIENTS) && !defined(SURFACE)
     // Value and gradient in one fetch [Stegmaier05 §4].
     vec4 texel = gradient_texel(place_at(ray, steps_to(i)));
     vec4 color = classify(burdened_beside(value_of(texel)), clear);
@@ -83,9 +85,24 @@ vec4 shade_sample(Ray ray, uint i) {
         color.rgb = lit(color.rgb, gradient, point, view);
     }
 #endif
-    float steps = extent_of_sample(ray, i);
+    return color;
+}
+
+// Such a colour for so many steps, premultiplied.
+vec4 over_steps(vec4 color, float clear, float steps) {
     color.a = CORRECT_OPACITY ? corrected_opacity(color.a, clear, frame.exponent * steps) : min(color.a * steps, 1.0);
     return vec4(color.rgb * color.a, color.a);
+}
+
+#ifndef SURFACE
+// Premultiplied colour of sample `i`.
+vec4 shade_sample(Ray ray, uint i) {
+    if (in_hole(ray, i)) {
+        return no_sample();
+    }
+    float clear;
+    vec4 color = color_of_sample(ray, i, clear);
+    return over_steps(color, clear, extent_of_sample(ray, i));
 }
 #endif
 #endif

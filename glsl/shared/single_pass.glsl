@@ -1,6 +1,7 @@
 // The whole ray in one loop [Stegmaier05 §3, §5]: samples are taken until the ray leaves the volume or needs no more of them.
 // Twin: src/twin/single_pass.rs. It includes all it needs, which two shaders would have to list alike.
 //
+// TRANSPARENT (with SURFACE; crossings.glsl): surfaces let something through, and the ray goes on behind them.
 // LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing.
 //
 // Departures: 1. positions come from the index, where the paper adds steps up. 2. The end of the ray is drawn, unless `last = "none"`
@@ -60,7 +61,7 @@ vec4 begin_ray(Ray ray) {
 // Whether a ray that holds so much takes no further sample. One that looks for a surface goes on to it behind whatever lets
 // something through, as in the passes of main_pass.frag.
 bool is_done(vec4 held) {
-#if defined(SURFACE)
+#if defined(SURFACE) && !defined(TRANSPARENT)
     return held.a >= 1.0;
 #elif defined(ENDLESS)
     return false;
@@ -69,7 +70,9 @@ bool is_done(vec4 held) {
 #endif
 }
 
-#ifdef SURFACE
+#if defined(TRANSPARENT)
+#include "shared/crossings.glsl"
+#elif defined(SURFACE)
 // Joins the step after sample `i` with what the ray holds: the surface that it meets there, if any, which ends the ray.
 bool take_step(Ray ray, uint i, inout vec4 held) {
     vec2 stretch = stretch_after(ray, i);
@@ -85,7 +88,14 @@ bool take_step(Ray ray, uint i, inout vec4 held) {
 vec4 cast_ray(Ray ray, vec4 held) {
     uint i = first_sample(ray);
     bool done = is_done(held);
-#ifdef SURFACE
+#if defined(TRANSPARENT)
+#ifndef GOES_ON
+    if (!done && i < ray.samples) {
+        cross_begin(ray, stretch_after(ray, i).x, held);
+        done = is_done(held);
+    }
+#endif
+#elif defined(SURFACE)
     // A ray that begins on a surface, or within, meets it there.
     if (!done && i < ray.samples) {
         float begin = stretch_after(ray, i).x;
@@ -106,11 +116,16 @@ vec4 cast_ray(Ray ray, vec4 held) {
 #else
         uint end = ray.samples;
 #endif
-#ifdef PREINTEGRATED
+#ifdef TRANSPARENT
+        float front = crossed_value(ray, stretch_after(ray, i).x);
+#elif defined(PREINTEGRATED)
         float front = node_at(ray, i);
 #endif
         for (; !done && i < end; ++i) {
-#if defined(SURFACE)
+#if defined(TRANSPARENT)
+            cross_step(ray, i, front, held);
+            done = is_done(held);
+#elif defined(SURFACE)
             done = take_step(ray, i, held);
 #elif defined(PREINTEGRATED)
             held = joined(held, shade_span(ray, i, front));

@@ -2,7 +2,7 @@
 // Twin: src/twin/surface.rs; the values are those of src/projection/surface.rs.
 
 struct SurfaceLevel {
-    // Linear, not lit.
+    // Linear, not lit; in alpha its opacity.
     vec4 color;
     // The values that are on the surface (units of the volume texture), from the one to the other.
     float from;

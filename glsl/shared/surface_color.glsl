@@ -53,9 +53,8 @@ vec3 normal_to(vec3 view, vec3 gradient) {
 }
 #endif
 
-// What shows of a surface that the ray meets between two places, as `meet` has them, opaque.
-vec4 surface_color(Ray ray, vec2 between) {
-    Meeting met = meet(ray, between);
+// What shows of a surface where the ray meets it, premultiplied.
+vec4 color_where(Ray ray, Meeting met) {
 #ifndef SHOWS_POSITION
     vec3 gradient = gradient_at(place_at(ray, met.steps));
 #endif
@@ -66,10 +65,16 @@ vec4 surface_color(Ray ray, vec2 between) {
 #elif defined(SHOWS_NORMAL)
     return vec4(normal_to(view, gradient), 1.0);
 #else
-    vec3 color = lit(surface_levels.list[met.level].color.rgb, gradient, point, view);
+    vec4 unlit = surface_levels.list[met.level].color;
+    vec3 color = lit(unlit.rgb, gradient, point, view);
 #ifdef ENVIRONMENT
     color = reflecting(color, gradient, view);
 #endif
-    return vec4(color, 1.0);
+    return vec4(color * unlit.a, unlit.a);
 #endif
+}
+
+// What shows of a surface that the ray meets between two places, as `meet` has them.
+vec4 surface_color(Ray ray, vec2 between) {
+    return color_where(ray, meet(ray, between));
 }

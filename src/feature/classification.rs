@@ -8,6 +8,7 @@ pub const CLASSIFICATION: Feature = Feature {
     without: Some("VALUES"),
     ..Feature::at(Hook::Sample, "classification", |context| match context.projection().shows_values() {
         true => Err(format!("{} shows values, not colours", context.projection().name).into()),
+        false if context.scene.surfaces_in_volume() => Ok(()),
         false if context.has(&ISO_SURFACE) => Err("a surface has one colour, and samples tell where it is".into()),
         false => Ok(()),
     })

@@ -36,7 +36,7 @@ pub use early_ends::{EARLY_ENDS, may_end};
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
-pub use surface::ISO_SURFACE;
+pub use surface::{ISO_SURFACE, SURFACES_IN_VOLUME, TRANSPARENT_SURFACES};
 
 use crate::part::Constant;
 use crate::part::access::{Access, Usage};
@@ -58,7 +58,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 32] = [
+pub const FEATURES: [&Feature; 34] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -86,6 +86,8 @@ pub const FEATURES: [&Feature; 32] = [
     &APART,
     &CLIP_PLANES,
     &ISO_SURFACE,
+    &TRANSPARENT_SURFACES,
+    &SURFACES_IN_VOLUME,
     &LIT_SAMPLES,
     &GRADIENT_TEXTURE,
     &GRADIENTS_BESIDE_SAMPLES,

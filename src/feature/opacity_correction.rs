@@ -19,7 +19,7 @@ fn needed(context: &Context) -> Result<(), Why> {
     if sampling.alpha == Alpha::Paper {
         return Err("alpha = \"paper\" takes opacities as they stand".into());
     }
-    if sampling.last == Last::Partial {
+    if context.scene.last() == Last::Partial {
         return Ok(());
     }
     if context.has(&PREINTEGRATION) {

@@ -15,7 +15,7 @@ pub fn never_ends(context: &Context) -> String {
     if let Ends::Never(why) = context.projection().ends {
         return why.to_owned();
     }
-    if context.scene.surface.is_some() {
+    if context.scene.ends_at_surfaces() {
         return "rays go on behind a surface where T is 1".to_owned();
     }
     format!("no ray of this view comes to an opacity above {}", context.scene.settings.sampling.termination)

@@ -7,7 +7,7 @@ use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::projection::{self, COMPOSITE};
 use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Filter, Offset, Refine, Shows};
+use crate::scene::settings::{Accumulate, Filter, Find, Offset, Refine, Shows};
 
 /// Iso-surfaces that rays look for in place of colours [KW03 §2.2, Thesis ch. 5 §3.2].
 pub const ISO_SURFACE: Feature = Feature {
@@ -16,6 +16,28 @@ pub const ISO_SURFACE: Feature = Feature {
     ..Feature::at(Hook::Sample, "iso-surface", |context| match context.scene.surface {
         Some(_) if context.passes > 0 => Ok(()),
         _ => Err(Why::Untold),
+    })
+};
+
+/// Surfaces that let something through, so that rays go on behind them [Stegmaier05 §6].
+pub const TRANSPARENT_SURFACES: Feature = Feature {
+    with: Some("TRANSPARENT"),
+    ..Feature::at(Hook::Sample, "transparent surfaces", |context| {
+        match context.has(&ISO_SURFACE) && context.scene.sees_through_surfaces() {
+            true => Ok(()),
+            false => Err(Why::Untold),
+        }
+    })
+};
+
+/// Surfaces within the colours of the volume [Stegmaier05 §6].
+pub const SURFACES_IN_VOLUME: Feature = Feature {
+    with: Some("IN_VOLUME"),
+    ..Feature::at(Hook::Sample, "surfaces in the volume", |context| {
+        match context.has(&ISO_SURFACE) && context.scene.surfaces_in_volume() {
+            true => Ok(()),
+            false => Err(Why::Untold),
+        }
     })
 };
 
@@ -61,16 +83,15 @@ pub fn check(scene: &Scene) -> Result<()> {
         return Ok(());
     }
     let sampling = &settings.sampling;
-    let transparent = settings.surface.levels.iter().find(|level| level.opacity < 1.0);
     match () {
         () if row.name != COMPOSITE.name => {
             let input = format!("projection.kind (--projection {})", row.name);
             refuse(&input, "shows values, and a surface is where one is, not how large", "use composite with surfaces")
         }
-        () if sampling.preintegrates() => refuse(
+        () if sampling.preintegrates() && !scene.surfaces_in_volume() => refuse(
             "sampling.classification (--classification pre-integrated)",
             "makes colours of the values between samples, and surfaces have one of their own",
-            "use post with surfaces",
+            "use post with surfaces, or draw them with the volume (--surface-volume)",
         ),
         () if sampling.offset != Offset::Left => refuse(
             "sampling.offset (--offset midpoint)",
@@ -87,12 +108,51 @@ pub fn check(scene: &Scene) -> Result<()> {
             "has no values between voxels, where the place of a surface could be refined",
             "use --refine none, or another filter",
         ),
-        () if transparent.is_some() => refuse(
+        () if scene.sees_through_surfaces() => check_transparent(scene),
+        () if settings.surface.shows != Shows::Color => check_numbers(scene),
+        () => Ok(()),
+    }
+}
+
+/// Whether transparent surfaces have a meaning with what else the scene asks for.
+fn check_transparent(scene: &Scene) -> Result<()> {
+    let surface = &scene.settings.surface;
+    match () {
+        () if surface.find == Find::Range => refuse(
+            "surface.find (--find range)",
+            "asks for places with a value in a range, and rays meet transparent surfaces where they cross their values",
+            "use crossing, or opacity = 1",
+        ),
+        () if surface.shows != Shows::Color => refuse(
+            "surface.shows (--surface-shows)",
+            "asks for one place or normal a pixel, and rays go on behind transparent surfaces",
+            "show colours, or give opacity = 1",
+        ),
+        () if !scene.polygons.clips().is_empty() => refuse(
+            "clip.mesh",
+            "cuts into transparent surfaces, and nothing tells where a ray that it lets in begins within one",
+            "use planes, or opacity = 1",
+        ),
+        () => Ok(()),
+    }
+}
+
+/// Whether a method ends its rays at the surfaces of a scene, as it does where they are opaque.
+///
+/// # Errors
+/// When one of them is transparent, which asks for a shader that holds the whole ray.
+pub fn check_opaque(scene: &Scene) -> Result<()> {
+    match () {
+        () if scene.surfaces_in_volume() => refuse(
+            "surface.volume (--surface-volume)",
+            "draws surfaces with the volume, and rays of several passes look for surfaces or gather colours, not both",
+            "use --method single-pass, or leave it out",
+        ),
+        () if scene.sees_through_surfaces() => refuse(
             "surface.levels",
             "has a surface with an opacity below 1, and rays of several passes end at the first surface that they meet",
-            "give opacity = 1, or leave it out",
+            "use --method single-pass, or opacity = 1",
         ),
-        () if settings.surface.shows != Shows::Color => check_numbers(scene),
         () => Ok(()),
     }
 }

@@ -1,6 +1,7 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
+use crate::feature::surface;
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
 use crate::part::Step;
 use crate::part::form::Form;
@@ -25,12 +26,12 @@ pub const EARLY_Z: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Fra
 /// The papers' form of near-neighbor skipping [Thesis §5.3].
 pub const BOUNDS: Option<Form> = Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth });
 
-/// A ray caster on a device that takes every scene, ends rays and knows nothing of what lies ahead.
+/// A ray caster on a device that takes every scene whose surfaces are opaque, ends rays and knows nothing of what lies ahead.
 pub const RAY_CASTER: Method = Method {
     name: "",
     about: "",
     source: "",
-    takes: |_| Ok(()),
+    takes: surface::check_opaque,
     papers: EARLY_Z,
     forms: every_form,
     ends_rays: true,

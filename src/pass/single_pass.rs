@@ -72,8 +72,8 @@ impl RayLoop {
             constants.extend(feature::constants(context, hook));
         }
         defines.extend(hooks.into_iter().flat_map(|hook| feature::defines(context, hook)));
-        // A surface ends its ray whatever T is.
-        defines.extend(EARLY_ENDS.define(context).filter(|_| !surface));
+        // An opaque surface ends its ray whatever T is.
+        defines.extend(EARLY_ENDS.define(context).filter(|_| !context.scene.ends_at_surfaces()));
         defines.extend(leap(context));
         constants.extend(leap(context).map(|_| constants::spans(context.scene)));
         if surface {

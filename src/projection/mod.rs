@@ -30,9 +30,9 @@ mod surface;
 pub use composite::COMPOSITE;
 pub use extreme::{MINIP, MIP};
 pub use row::{Ends, Levels, Met, OfValues, Projection, SampleWeight, ValueSpan};
-pub use shown::Shown;
+pub use shown::{Shown, Visible};
 pub use sum::{AVERAGE, XRAY};
-pub use surface::{first_met, on_surface, surface_values};
+pub use surface::{first_met, on_surface, surface_values, surfaces_around};
 
 use std::str::FromStr;
 

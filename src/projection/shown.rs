@@ -6,27 +6,35 @@ use crate::scene::texture::TextureMap;
 use crate::scene::{Scene, TransferFunction};
 
 /// What shows among values of one unit: x, or the texture's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shown {
+    /// What the transfer function makes visible, where it takes part.
+    pub visible: Option<Visible>,
+    /// Besides, values in these closed intervals, rising and apart.
+    pub within: Vec<[f64; 2]>,
+}
+
+/// Where a transfer function has any opacity, or a value that is off by no more than `slack` may find some.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shown {
-    /// Where the transfer function has any opacity, or a value that is off by no more than `slack` may find some.
-    Visible { transfer: TransferFunction, slack: f64 },
-    /// Values in these closed intervals, rising and apart.
-    Within(Vec<[f64; 2]>),
+pub struct Visible {
+    pub transfer: TransferFunction,
+    pub slack: f64,
 }
 
 impl Shown {
     /// What shows of a scene, in the unit that `map` leads to.
     pub fn of(scene: &Scene, map: TextureMap) -> Self {
-        if scene.surface.is_some() {
-            return Self::Within(apart(surface_values(scene, map)));
-        }
         let projection = of(&scene.settings);
+        let colors = || Visible {
+            transfer: scene.transfer.mapped(|x| map.value(x)),
+            slack: scene.value_slack() * map.scale.abs(),
+        };
         match &projection.values {
-            None => Self::Visible {
-                transfer: scene.transfer.mapped(|x| map.value(x)),
-                slack: scene.value_slack() * map.scale.abs(),
+            Some(values) => Self { visible: None, within: (values.counting)(&projection.levels(scene, map)) },
+            None => Self {
+                visible: (scene.surface.is_none() || scene.surfaces_in_volume()).then(colors),
+                within: on_surfaces(scene, map),
             },
-            Some(values) => Self::Within((values.counting)(&projection.levels(scene, map))),
         }
     }
 
@@ -37,25 +45,29 @@ impl Shown {
 
     /// Whether anything in `[low, high]` shows.
     pub fn anywhere(&self, low: f64, high: f64) -> bool {
-        match self {
-            Self::Visible { transfer, slack } => transfer.visible(low - slack, high + slack),
-            Self::Within(intervals) => intervals.iter().any(|[from, to]| low <= *to && high >= *from),
-        }
+        let sees = |Visible { transfer, slack }: &Visible| transfer.visible(low - slack, high + slack);
+        self.visible.as_ref().is_some_and(sees) || self.within.iter().any(|[from, to]| low <= *to && high >= *from)
     }
 
     /// The least and the greatest value at which what shows may change.
     pub fn turns(&self) -> [f64; 2] {
-        match self {
-            Self::Visible { transfer, slack } => {
-                let knots = transfer.knots();
-                [knots[0].x - slack, knots[knots.len() - 1].x + slack]
-            }
-            Self::Within(intervals) => {
-                let ends = || intervals.iter().flatten().copied().filter(|end| end.is_finite());
-                [ends().fold(f64::INFINITY, f64::min), ends().fold(f64::NEG_INFINITY, f64::max)]
-            }
-        }
+        let knots = self.visible.iter().flat_map(|Visible { transfer, slack }| {
+            let knots = transfer.knots();
+            [knots[0].x - slack, knots[knots.len() - 1].x + slack]
+        });
+        let ends = self.within.iter().flatten().copied().filter(|end| end.is_finite());
+        knots.chain(ends).fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| [least.min(x), most.max(x)])
     }
+}
+
+/// The values that are on surfaces, or that rays cross where they go on behind them.
+fn on_surfaces(scene: &Scene, map: TextureMap) -> Vec<[f64; 2]> {
+    let mut values = surface_values(scene, map);
+    if scene.sees_through_surfaces() {
+        // Within such a surface there is nothing.
+        values.iter_mut().for_each(|[from, to]| *to = *from);
+    }
+    apart(values)
 }
 
 /// Intervals that rise, those that meet joined.
@@ -71,6 +83,6 @@ fn apart(intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 impl From<&TransferFunction> for Shown {
     fn from(transfer: &TransferFunction) -> Self {
-        Self::Visible { transfer: transfer.clone(), slack: 0.0 }
+        Self { visible: Some(Visible { transfer: transfer.clone(), slack: 0.0 }), within: Vec::new() }
     }
 }

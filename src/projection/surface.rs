@@ -39,6 +39,11 @@ pub fn first_met(values: &[[f64; 2]], front: f64, back: f64) -> Option<(usize, f
     }
 }
 
+/// Within how many surfaces that are crossed a value is: those whose values it has reached.
+pub fn surfaces_around(values: &[[f64; 2]], value: f64) -> usize {
+    values.partition_point(|[from, _]| *from <= value)
+}
+
 /// The surface that a value is on; the last of several.
 pub fn on_surface(values: &[[f64; 2]], value: f64) -> Option<usize> {
     values.iter().rposition(|[from, to]| *from <= value && value <= *to)

@@ -3,7 +3,7 @@
 use super::settings::{Find, Last, Settings, SurfaceLevel};
 use super::{Field, Scene, TransferFunction};
 
-/// Iso-surfaces that rays look for, in place of the volume's colours.
+/// Iso-surfaces that rays look for, in place of the volume's colours or with them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// The surfaces, by rising values.
@@ -17,6 +17,8 @@ pub struct Level {
     pub values: [f64; 2],
     /// Linear, not lit.
     pub color: [f64; 3],
+    /// What it takes of the light behind it; a surface of opacity 1 ends rays.
+    pub opacity: f64,
 }
 
 /// The width of ranges of which nothing is said, in parts of the scalar range.
@@ -42,15 +44,36 @@ impl Surface {
                 Find::Range => [x(asked.iso - reach), x(asked.iso + reach)],
             };
             let [r, g, b, _] = transfer.evaluate(x(asked.iso));
-            Level { values, color: asked.color.unwrap_or([r, g, b]) }
+            Level { values, color: asked.color.unwrap_or([r, g, b]), opacity: asked.opacity }
         };
         let mut levels: Vec<Level> = surface.asked().iter().map(level).collect();
         levels.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
         (!levels.is_empty()).then_some(Self { levels })
     }
+
+    /// Whether any lets something through, so that rays may go on behind it.
+    pub fn is_transparent(&self) -> bool {
+        self.levels.iter().any(|level| level.opacity < 1.0)
+    }
 }
 
 impl Scene {
+    /// Whether rays look for a surface that ends them, so that what they gather is where they meet it.
+    pub fn ends_at_surfaces(&self) -> bool {
+        self.surface.is_some() && !self.sees_through_surfaces()
+    }
+
+    /// Whether rays gather the colours of surfaces that they cross: of those that let something through, and of all that stand within
+    /// the colours of the volume.
+    pub fn sees_through_surfaces(&self) -> bool {
+        self.surface.as_ref().is_some_and(Surface::is_transparent) || self.surfaces_in_volume()
+    }
+
+    /// Whether surfaces are drawn with the volume's colours.
+    pub fn surfaces_in_volume(&self) -> bool {
+        self.surface.is_some() && self.settings.surface.volume
+    }
+
     /// What the last sample of a ray stands for. One that looks for surfaces looks at all of its ray, and no further.
     pub fn last(&self) -> Last {
         if self.surface.is_some() { Last::Partial } else { self.settings.sampling.last }

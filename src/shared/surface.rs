@@ -11,7 +11,7 @@ use crate::scene::{Scene, Surface};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SurfaceLevel {
-    /// Linear, not lit.
+    /// Linear, not lit, and its opacity.
     pub color: [f32; 4],
     /// The values that are on the surface, from the one to the other, in units of the volume texture.
     pub from: f32,
@@ -23,13 +23,13 @@ pub struct SurfaceLevel {
 pub fn surface_levels(scene: &Scene, surface: &Surface) -> Vec<SurfaceLevel> {
     let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
     let values = surface_values(scene, map);
-    let level = |([from, to], [r, g, b]): ([f64; 2], [f64; 3])| SurfaceLevel {
-        color: [r, g, b, 1.0].map(|c| c as f32),
+    let level = |([from, to], ([r, g, b], opacity)): ([f64; 2], ([f64; 3], f64))| SurfaceLevel {
+        color: [r, g, b, opacity].map(|c| c as f32),
         from: from as f32,
         to: to as f32,
         padding: [0; 2],
     };
-    values.into_iter().zip(surface.levels.iter().map(|level| level.color)).map(level).collect()
+    values.into_iter().zip(surface.levels.iter().map(|level| (level.color, level.opacity))).map(level).collect()
 }
 
 /// Lights as the shader's buffer has them (`glsl/shared/phong.glsl`): four rows each, two where all are white.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::grid::Grid;
 use super::ranges::{ROUNDING, ranges_of};
-use crate::projection::Shown;
+use crate::projection::{Shown, Visible};
 use crate::scene::settings::Filter;
 use crate::scene::{Field, Scene, TransferFunction};
 
@@ -35,10 +35,16 @@ pub struct Support(Vec<[f32; 2]>);
 
 impl Support {
     pub fn of(shown: &Shown) -> Self {
-        let intervals = match shown {
-            Shown::Visible { transfer, slack } => visible(transfer, *slack),
-            Shown::Within(intervals) => intervals.clone(),
-        };
+        let of_transfer = shown.visible.iter().flat_map(|Visible { transfer, slack }| visible(transfer, *slack));
+        let mut all: Vec<[f64; 2]> = of_transfer.chain(shown.within.iter().copied()).collect();
+        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut intervals: Vec<[f64; 2]> = Vec::new();
+        for [low, high] in all {
+            match intervals.last_mut() {
+                Some(before) if low <= before[1].next_up() => before[1] = before[1].max(high),
+                _ => intervals.push([low, high]),
+            }
+        }
         // A range of f32 meets an interval exactly when it meets the f32 within; where there is none, `low` ends up
         // above `high` and only ranges across both meet it.
         Self(intervals.into_iter().map(|[low, high]| [at_least(low), at_most(high)]).collect())

@@ -23,11 +23,13 @@
 //! Opacity 1: where it holds on a positive length, the ray ends there in that colour. Where it is reached at single
 //! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
 
+mod crossings;
 mod cubic;
 mod first;
 mod met;
 mod panel;
 
+pub use crossings::Crossing;
 pub use first::FirstPlace;
 pub use panel::TOLERANCE;
 
@@ -61,7 +63,7 @@ pub struct ExactIntegrator<'a> {
     planes: &'a [HalfSpace],
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
-    /// The scene, where its surfaces are drawn in place of colours.
+    /// The scene, where its surfaces are drawn.
     surfaces: Option<&'a Scene>,
 }
 
@@ -118,13 +120,16 @@ impl<'a> ExactIntegrator<'a> {
     /// a `length` that is not positive.
     pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
         if let Some(scene) = self.surfaces {
-            return self.surface(scene, entry, direction, length);
+            return match scene.sees_through_surfaces() {
+                true => self.transparent_surfaces(scene, entry, direction, length),
+                false => self.surface(scene, entry, direction, length),
+            };
         }
         let voxel = self.field.voxel();
         let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
-        let cuts = self.plane_cuts(&line, length);
-        let parts = cuts.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| a < b);
         if let Some(values) = &self.projection.values {
+            let cuts = self.plane_cuts(&line, length);
+            let parts = cuts.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| a < b);
             let lengths = |way: f64| way / (self.medium.transfer.reference * self.field.finest());
             let mut meeting = Meeting::new(self.field);
             for (a, b) in parts {
@@ -134,16 +139,28 @@ impl<'a> ExactIntegrator<'a> {
             let value = (values.exact)(&met);
             return [value, value, value, 1.0];
         }
+        self.colors(&line, length)
+    }
+
+    /// Premultiplied RGBA of what the transfer function makes of a line from 0 to `length`.
+    fn colors(&self, line: &VoxelRay, length: f64) -> [f64; 4] {
         let mut light = Light { color: [0.0; 3], transmittance: 1.0 };
-        for (a, b) in parts {
+        for (a, b) in self.plane_cuts(line, length).windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| a < b) {
             if light.transmittance * self.medium.brightest < BLACK {
                 break;
             }
-            if let Some(cell) = self.cell(&line, a, b) {
+            if let Some(cell) = self.cell(line, a, b) {
                 self.part(&cell, (a, b), length, &mut light);
             }
         }
         light.rgba()
+    }
+
+    /// The same of a ray from `from` to `to` of its length.
+    fn colors_between(&self, entry: DVec3, direction: DVec3, [from, to]: [f64; 2]) -> [f64; 4] {
+        let (voxel, begin) = (self.field.voxel(), entry + from * direction);
+        let origin = (begin + 0.5 * self.field.extent()) / voxel - 0.5;
+        self.colors(&VoxelRay { origin, direction: direction / voxel }, to - from)
     }
 
     /// The colour of the surface that a ray meets first, lit and reflecting by the gradient of the interpolant, or what else the scene
@@ -154,14 +171,37 @@ impl<'a> ExactIntegrator<'a> {
         let Some(found) = self.first_within(entry, direction, length, &ranges) else { return [0.0; 4] };
         let point = LitPoint { place: entry + found.t * direction, normal: found.gradient, view: -direction };
         let [r, g, b] = match scene.settings.surface.shows {
-            Shows::Color => {
-                let lit = lit(colors[found.range], &scene.shining(), &point);
-                scene.environment.as_ref().map_or(lit, |environment| environment.on(lit, point.normal, point.view))
-            }
+            Shows::Color => shown_color(scene, colors[found.range], &point),
             Shows::Position => point.place.to_array(),
             Shows::Normal => point.turned().unwrap_or_default().to_array(),
         };
         [r, g, b, 1.0]
+    }
+
+    /// The colours of all surfaces that a ray crosses, one behind the other and with the volume between where it is drawn, lit and reflecting as [`Self::surface`] has them. Of those
+    /// that it begins within it meets the innermost there.
+    fn transparent_surfaces(&self, scene: &Scene, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        let surfaces: Vec<_> = scene.surface.iter().flat_map(|surface| &surface.levels).collect();
+        let levels: Vec<f64> = surfaces.iter().map(|level| level.values[0]).collect();
+        let mut met: Vec<(f64, usize, DVec3)> = Vec::new();
+        let ranges: Vec<[f64; 2]> = surfaces.iter().map(|level| level.values).collect();
+        let begin = self.first_within(entry, direction, length, &ranges).filter(|found| found.t == 0.0);
+        met.extend(begin.map(|found| (found.t, found.range, found.gradient)));
+        let crossings = self.crossings(entry, direction, length, &levels);
+        met.extend(crossings.into_iter().map(|crossing| (crossing.t, crossing.level, crossing.gradient)));
+        let volume = |from: f64, to: f64| match scene.surfaces_in_volume() {
+            true => self.colors_between(entry, direction, [from, to]),
+            false => [0.0; 4],
+        };
+        let (mut pixel, mut from) = ([0.0; 4], 0.0);
+        for (t, level, normal) in met {
+            let point = LitPoint { place: entry + t * direction, normal, view: -direction };
+            let (color, opacity) = (shown_color(scene, surfaces[level].color, &point), surfaces[level].opacity);
+            let [r, g, b] = color.map(|c| c * opacity);
+            pixel = composite(composite(pixel, volume(from, t)), [r, g, b, opacity]);
+            from = t;
+        }
+        composite(pixel, volume(from, length))
     }
 
     /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to
@@ -263,6 +303,12 @@ impl<'a> ExactIntegrator<'a> {
             self.medium.add(&cell.cubic(), lengths, (b - a) / length, light);
         }
     }
+}
+
+/// A surface of that colour in the lights of the scene, with what it reflects.
+fn shown_color(scene: &Scene, color: [f64; 3], point: &LitPoint) -> [f64; 3] {
+    let lit = lit(color, &scene.shining(), point);
+    scene.environment.as_ref().map_or(lit, |environment| environment.on(lit, point.normal, point.view))
 }
 
 /// A ray that enters and leaves the volume's box at these depths, with its surfaces: `between` gives what lies between two

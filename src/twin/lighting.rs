@@ -23,33 +23,41 @@ pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
         return Effect::Discarded;
     }
     let (place, level) = twin.met(pixel, [front, back]);
-    let color = twin.scene.surface.as_ref().map_or([0.0; 3], |surface| surface.levels[level].color);
-    let lights = twin.lights;
-    let shown = |steps: f64| match twin.scene.settings.surface.shows {
-        Shows::Color => twin.reflecting(pixel, twin.shaded(pixel, steps, color, lights)),
-        Shows::Position => twin.shown_place(pixel, steps),
-        Shows::Normal => twin.shown_normal(pixel, steps),
-    };
-    let shaded = shown(place.steps);
-    // A place that is off has another normal.
-    let moved = [-place.rounding, place.rounding].map(|by| shown(place.steps + by).color);
-    let apart = |other: &[f64; 3]| (0..3).map(|c| (other[c] - shaded.color[c]).abs()).fold(0.0, f64::max);
-    let rounding = moved.iter().map(apart).fold(shaded.rounding, f64::max);
-    pixel.rounding = pixel.rounding.max(rounding);
-    pixel.surface = Some(MetSurface { steps: place.steps, level, normal: shaded.normal });
-    pixel.undecided |= shaded.turns || rounding > LOOSE;
-    let [r, g, b] = shaded.color;
-    pixel.accumulated = Blend::Over.apply(pixel.accumulated, [r, g, b, 1.0]);
+    twin.put_surface(pixel, place, level);
     Effect::Silent
 }
 
 /// A place on a ray, in steps, and how far one that is found in f32 may be from it.
-struct RoundedPlace {
-    steps: f64,
-    rounding: f64,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RoundedPlace {
+    pub steps: f64,
+    pub rounding: f64,
 }
 
 impl Twin<'_> {
+    /// Puts what shows of a surface that is met there under what the pixel has.
+    pub(super) fn put_surface(&self, pixel: &mut Pixel, place: RoundedPlace, level: usize) {
+        let unlit = self.scene.surface.as_ref().map(|surface| surface.levels[level]);
+        let (color, opacity) = unlit.map_or(([0.0; 3], 0.0), |level| (level.color, level.opacity));
+        let shown = |steps: f64| match self.scene.settings.surface.shows {
+            Shows::Color => self.reflecting(pixel, self.shaded(pixel, steps, color, self.lights)),
+            Shows::Position => self.shown_place(pixel, steps),
+            Shows::Normal => self.shown_normal(pixel, steps),
+        };
+        let shaded = shown(place.steps);
+        // A place that is off has another normal.
+        let moved = [-place.rounding, place.rounding].map(|by| shown(place.steps + by).color);
+        let apart = |other: &[f64; 3]| (0..3).map(|c| (other[c] - shaded.color[c]).abs()).fold(0.0, f64::max);
+        let rounding = moved.iter().map(apart).fold(shaded.rounding, f64::max);
+        // What stands in front takes its part of what may be off.
+        let part = opacity * (1.0 - pixel.accumulated[3]);
+        pixel.rounding += part * rounding;
+        pixel.surface.get_or_insert(MetSurface { steps: place.steps, level, normal: shaded.normal });
+        pixel.undecided |= part > 0.0 && (shaded.turns || rounding > LOOSE);
+        let [r, g, b] = shaded.color.map(|c| c * opacity);
+        pixel.accumulated = Blend::Over.apply(pixel.accumulated, [r, g, b, opacity]);
+    }
+
     /// A place of a surface as it is shown, in volume space.
     fn shown_place(&self, pixel: &Pixel, steps: f64) -> Shaded {
         let extent = self.scene.field.extent();

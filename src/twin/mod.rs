@@ -3,6 +3,7 @@
 pub mod block_skip;
 pub mod clip_begin;
 pub mod clip_winding;
+mod crossings;
 pub mod direction;
 pub mod entry;
 mod environment;

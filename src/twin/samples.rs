@@ -153,7 +153,7 @@ impl Twin<'_> {
         // Opacity never exceeds 1, so that at T = 1 there is nothing to decide.
         let opacity = self.gathered(pixel)[3];
         // That of a surface is 1 to the bit.
-        if threshold < 1.0 && opacity > 0.0 && self.scene.surface.is_none() {
+        if threshold < 1.0 && opacity > 0.0 && !self.scene.ends_at_surfaces() {
             pixel.undecided |= (opacity - threshold).abs() < ROUNDING;
         }
         opacity > threshold

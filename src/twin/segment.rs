@@ -21,19 +21,25 @@ pub(super) const PLACE_ROUNDING: f64 = 1e-6;
 impl Twin<'_> {
     /// Premultiplied colour of sample `i`.
     fn shade_sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
+        let steps = self.extent_of_sample(pixel, i);
+        self.shade_steps(pixel, i, steps)
+    }
+
+    /// Premultiplied colour of sample `i`, that stands for so many steps.
+    fn shade_steps(&self, pixel: &mut Pixel, i: u32, steps: f64) -> [f64; 4] {
         let (transfer, sampling) = (&self.scene.transfer, &self.scene.settings.sampling);
         let voxel = self.voxel(self.sample_position(pixel, i));
         if self.in_hole(voxel) {
             return [0.0; 4];
         }
-        let value = match self.gradients {
+        // Beside surfaces, gradients are for these alone.
+        let value = match self.gradients.filter(|_| self.scene.surface.is_none()) {
             Some(gradients) => self.value_beside(gradients, pixel, voxel),
             None => self.value(pixel, voxel),
         };
         let [r, g, b, a] = transfer.evaluate(value);
         let (lit, rounding) = if a > 0.0 { self.lit_sample(pixel, i, [r, g, b]) } else { ([r, g, b], 0.0) };
         let [r, g, b] = lit;
-        let steps = self.extent_of_sample(pixel, i);
         let alpha = match sampling.alpha {
             Alpha::Exponential => corrected_opacity(a, steps * sampling.step / transfer.reference),
             Alpha::Paper => (a * steps).min(1.0),
@@ -45,7 +51,8 @@ impl Twin<'_> {
 
     /// The colour of sample `i` in the lights of the scene, where it has some, and how far f32 may be from it.
     fn lit_sample(&self, pixel: &Pixel, i: u32, color: [f64; 3]) -> ([f64; 3], f64) {
-        if self.lights.is_empty() {
+        // Lights shine on surfaces, where there are some.
+        if self.lights.is_empty() || self.scene.surface.is_some() {
             return (color, 0.0);
         }
         let shaded = self.shaded(pixel, self.steps_to(i), color, self.lights);
@@ -143,6 +150,17 @@ impl Twin<'_> {
             table.node(self.value(pixel, voxel))
         });
         part_of(table.between(front, back), self.extent_of_sample(pixel, i), self.scene.settings.sampling.alpha)
+    }
+
+    /// Premultiplied colour of a part of the step after sample `i`, so many steps long, on which values go from the one to the other.
+    pub(super) fn shade_part(&self, pixel: &mut Pixel, i: u32, steps: f64, values: [f64; 2]) -> [f64; 4] {
+        match self.table {
+            None => self.shade_steps(pixel, i, steps),
+            Some(table) => {
+                let [front, back] = values.map(|value| table.node(value));
+                part_of(table.between(front, back), steps, self.scene.settings.sampling.alpha)
+            }
+        }
     }
 
     /// Whether f32 may have a `value` interpolated at `voxel` on the other side of a `jump`.

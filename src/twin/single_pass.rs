@@ -41,6 +41,9 @@ pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
 
 impl Twin<'_> {
     fn cast_ray(&self, pixel: &mut Pixel) -> Effect {
+        if self.scene.sees_through_surfaces() {
+            return self.crossings_on_ray(pixel);
+        }
         if self.scene.surface.is_some() {
             return self.surface_on_ray(pixel);
         }

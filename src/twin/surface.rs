@@ -10,14 +10,14 @@ use crate::scene::settings::Filter;
 impl Twin<'_> {
     /// What a ray has gathered, of which it depends whether it goes on.
     pub fn gathered(&self, pixel: &Pixel) -> [f64; 4] {
-        if self.scene.surface.is_some() { pixel.hit } else { pixel.accumulated }
+        if self.scene.ends_at_surfaces() { pixel.hit } else { pixel.accumulated }
     }
 
     /// Joins a segment with what the ray has gathered.
     pub fn gather(&self, pixel: &mut Pixel, segment: [f64; 4]) {
-        match self.scene.surface {
-            Some(_) => pixel.hit = Blend::Over.apply(pixel.hit, segment),
-            None => pixel.accumulated = self.projection.blend.apply(pixel.accumulated, segment),
+        match self.scene.ends_at_surfaces() {
+            true => pixel.hit = Blend::Over.apply(pixel.hit, segment),
+            false => pixel.accumulated = self.projection.blend.apply(pixel.accumulated, segment),
         }
     }
 
@@ -54,7 +54,7 @@ impl Twin<'_> {
     }
 
     /// The part of the step after sample `i` that is on the part of the ray that is drawn, in steps.
-    fn stretch_after(&self, pixel: &Pixel, i: u32) -> [f64; 2] {
+    pub(super) fn stretch_after(&self, pixel: &Pixel, i: u32) -> [f64; 2] {
         let [begin, end] = self.part(pixel);
         let last = i + 1 == self.sample_count(pixel);
         let to = if last { self.steps(pixel) } else { f64::from(i + 1) };

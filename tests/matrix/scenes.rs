@@ -27,7 +27,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 55] = [
+const KINDS: [(&str, Change); 59] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -139,6 +139,21 @@ const KINDS: [(&str, Change); 55] = [
         (s.environment.builtin, s.environment.reflectivity) = (Some("polygons".to_owned()), 0.3);
         s.meshes = vec![MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
     }),
+    ("transparent iso-surfaces", |s| {
+        s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 0.5), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
+        s.lights = two_lights();
+    }),
+    ("transparent iso-surfaces to the root, with a mesh and a plane", |s| {
+        s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 1.0), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
+        (s.surface.refine, s.sampling.step) = (Refine::Exact, 1.7);
+        (s.meshes, s.clips) = (vec![cuboid(0.5, 0.4)], vec![plane([0.3, -0.2, -1.0, 0.1])]);
+    }),
+    ("an iso-surface in the volume", |s| (s.surface.iso, s.surface.volume) = (Some(150.0), true)),
+    ("transparent iso-surfaces in the volume, classified as a whole", |s| {
+        s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 0.5), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
+        (s.surface.volume, s.sampling.classification) = (true, Classification::PreIntegrated);
+        (s.sampling.step, s.surface.refine) = (1.3, Refine::None);
+    }),
     ("places of an iso-surface", |s| {
         (s.surface.iso, s.surface.refine, s.surface.shows) = (Some(90.0), Refine::Exact, Shows::Position);
         s.clips = vec![plane([0.3, -0.2, -1.0, 0.1])];
@@ -218,6 +233,11 @@ fn two_lights() -> Vec<LightSettings> {
 /// An iso-surface with a colour of its own.
 fn level(iso: f64, color: [f64; 3]) -> SurfaceLevel {
     SurfaceLevel { iso, color: Some(color), ..SurfaceLevel::default() }
+}
+
+/// An iso-surface that lets something through.
+fn sheet(iso: f64, color: [f64; 3], opacity: f64) -> SurfaceLevel {
+    SurfaceLevel { iso, color: Some(color), opacity }
 }
 
 /// A box along no axis; backs have another colour.

@@ -1,4 +1,4 @@
-//! `[surface]`: iso-surfaces that rays look for, in place of the volume's colours.
+//! `[surface]`: iso-surfaces that rays look for, in place of the volume's colours or with them.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,12 +16,12 @@ const WIDTHS: Limits = Limits::from_to(0.0, 1e30, "a width {}");
 pub const MOST_SURFACES: usize = 64;
 
 section! {
-    /// Iso-surfaces, in place of the volume's colours.
+    /// Iso-surfaces, in place of the volume's colours or with them.
     #[serde(expecting = "the section [surface]")]
     #[command(next_help_heading = "Surface")]
     SurfaceSettings, SurfaceOptions, "surface";
 
-    /// Value of an iso-surface that is drawn in place of the volume, in the volume's own unit
+    /// Value of an iso-surface that is drawn, in the volume's own unit
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     iso?: f64, within VALUES;
@@ -43,6 +43,10 @@ section! {
     /// How the place of a surface is found between two samples
     #[arg(long, value_name = "HOW")]
     refine: Refine = Refine::Linear;
+
+    /// Draw surfaces together with the volume's colours, not in place of them
+    #[arg(long = "surface-volume", value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    volume: bool = false;
 
     /// What a pixel shows of the surface that its ray meets: its colour in all lights, its place or its normal as numbers
     #[arg(long = "surface-shows", value_name = "WHAT")]
