@@ -16,7 +16,7 @@ use depthleap::truth::exact::ExactIntegrator;
 use drawn::drawn;
 use glam::DVec3;
 
-const SIZE: [u32; 2] = [40, 32];
+const SIZE: [u32; 2] = [60, 48];
 
 /// What products of some dozen numbers differ by in f64.
 const ROUNDING: f64 = 1e-9;
@@ -115,7 +115,7 @@ fn both_sides_of_a_thin_sheet_are_crossed_inside_a_step() {
         counts
     };
     let [_, once, twice] = crossed(Refine::Exact);
-    assert!(twice > 200 && once < twice / 20, "{once} rays cross it once, {twice} twice");
+    assert!(twice > 200 && once < twice / 10, "{once} rays cross it once, {twice} twice");
     let [_, _, seen] = crossed(Refine::Linear);
     assert!(seen < twice / 2, "{seen} of {twice} are seen by samples");
 }
@@ -156,13 +156,13 @@ fn spheres_are_crossed_from_outside_in_and_out_again() {
 #[test]
 fn surfaces_behind_an_opaque_one_change_nothing() {
     for refine in [Refine::None, Refine::Linear, Refine::Exact] {
-        let outer = sheet(60.0, [0.9, 0.6, 0.2], 1.0);
+        let outer = sheet(0.3, [0.9, 0.6, 0.2], 1.0);
         let scene = |levels: Vec<SurfaceLevel>| {
             let change = |s: &mut Settings| (s.surface.refine, s.lights) = (refine, Vec::new());
             built_in(&settings(levels, change), "gaussian:24")
         };
-        let [(_, opaque), (_, both)] = [vec![outer.clone()], vec![outer, sheet(150.0, [0.0, 1.0, 0.0], 0.5)]]
-            .map(|levels| drawn(&scene(levels)));
+        let [(_, opaque), (_, both)] =
+            [vec![outer.clone()], vec![outer, sheet(0.7, [0.0, 1.0, 0.0], 0.5)]].map(|levels| drawn(&scene(levels)));
         assert!(opaque.pixels.iter().any(|pixel| pixel[3] > 0.0));
         let off = largest(&opaque.pixels, &both.pixels);
         assert!(off < ROUNDING, "{refine:?}: {off}");
@@ -220,7 +220,7 @@ fn roots_are_those_of_the_exact_picture() {
             compared += 1;
             shown += usize::from(pixel[3] > 0.5);
         }
-        assert!(compared > 1000 && shown > 100, "{volume}: {compared} compared, {shown} of them with several surfaces");
+        assert!(compared > 1000 && shown > 40, "{volume}: {compared} compared, {shown} of them with several surfaces");
     }
 }
 

@@ -8,15 +8,6 @@
 // How far rounding may lead the interpolant beyond the corners of its cell, relative (SLACK in src/projection/row.rs).
 const float INTERPOLATION_ROUNDING = exp2(-20.0);
 
-// Within how many surfaces a value is.
-int surfaces_around(float value) {
-    int count = 0;
-    while (count < surface_levels.list.length() && value >= surface_levels.list[count].from) {
-        ++count;
-    }
-    return count;
-}
-
 #ifdef IN_VOLUME
 // What is left of a step of the volume, behind the surfaces that were crossed in it.
 struct Rest {

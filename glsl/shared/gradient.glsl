@@ -65,14 +65,6 @@ float burdened_beside(float value) {
     return floatBitsToUint(found) == 0x7f800001u ? 0.0 : value;
 }
 #else
-// The value at a place, in units of the texture, as `sample_volume` has it.
-float value_at(Place place) {
-    if (FILTER == HARDWARE) {
-        return textureLod(volume, (place.below + place.weight + 0.5) / frame.dims.xyz, 0.0).r;
-    }
-    return FILTER == NEAREST ? sample_nearest(place) : sample_exact(place);
-}
-
 // The place `by` voxels along an axis, but not beyond the outermost voxel centres.
 Place beside(Place place, int axis, float by) {
     float last = frame.dims[axis] - 1.0;

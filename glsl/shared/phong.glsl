@@ -1,4 +1,5 @@
-// Lights on a surface: the illumination model of Phong [Thesis §4.2.1]. Twins: src/scene/light.rs, the formula, and
+// Lights on a surface: the illumination model of Phong [Thesis §4.2.1]. SHADOWS, TRANSLUCENT: what light there is depends on its way
+// (light_path.glsl). Twins: src/scene/light.rs, the formula, and
 // src/twin/phong.rs, how far f32 may be off.
 
 // Colours of lights are alike in red, green and blue.
@@ -43,10 +44,19 @@ vec3 lit(vec3 color, vec3 gradient, vec3 point, vec3 view) {
         float distance = length(way);
         float facing = distance > 0.0 ? dot(normal, way) / distance : 0.0;
         sum += color * ambient;
+        vec3 reflected = vec3(0.0);
         if (facing > 0.0) {
             vec3 halfway = normalize(way / distance + view);
-            sum += color * diffuse * facing + specular * power(clamp(dot(normal, halfway), 0.0, 1.0), parts.w);
+            reflected = color * diffuse * facing + specular * power(clamp(dot(normal, halfway), 0.0, 1.0), parts.w);
+#ifdef SHADOWS
+            reflected *= clear_to_light(point, normal, way / distance, place.w == 0.0 ? UNBOUNDED : distance);
+#endif
         }
+#ifdef TRANSLUCENT
+        float through = distance > 0.0 ? through_to_light(point, way / distance, place.w == 0.0 ? UNBOUNDED : distance) : 1.0;
+        reflected = mix(reflected, color * diffuse * through, THROUGH);
+#endif
+        sum += reflected;
     }
     return sum;
 }

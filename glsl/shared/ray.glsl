@@ -18,9 +18,10 @@ vec2 eye_coordinate(int axis) {
 
 #ifdef PLANES
 // The height of the eye over a clip plane, and what a ray rises by over it in a unit of depth, for base, right and down:
-// double-floats.
+// double-floats. The plane itself, in volume space: its normal, to where it keeps, and its height over the origin.
 struct ClipPlane {
     vec4 heights[2];
+    vec4 plane;
 };
 
 layout(set = 0, binding = 18, std430) readonly buffer ClipPlanes {

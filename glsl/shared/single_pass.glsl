@@ -27,6 +27,12 @@
 #if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION)
 #include "shared/gradient.glsl"
 #endif
+#ifdef SURFACE
+#include "shared/surface.glsl"
+#endif
+#if defined(SHADOWS) || defined(TRANSLUCENT)
+#include "shared/light_path.glsl"
+#endif
 #if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION) && !defined(SHOWS_NORMAL)
 #include "shared/phong.glsl"
 #endif
@@ -34,7 +40,6 @@
 #include "shared/environment.glsl"
 #endif
 #ifdef SURFACE
-#include "shared/surface.glsl"
 #include "shared/root.glsl"
 #include "shared/surface_color.glsl"
 #endif

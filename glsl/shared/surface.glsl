@@ -23,3 +23,12 @@ int level_of(float value) {
     }
     return -1;
 }
+
+// Within how many surfaces a value is.
+int surfaces_around(float value) {
+    int count = 0;
+    while (count < surface_levels.list.length() && value >= surface_levels.list[count].from) {
+        ++count;
+    }
+    return count;
+}

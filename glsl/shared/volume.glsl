@@ -37,6 +37,14 @@ float sample_nearest(Place place) {
     return texelFetch(volume, clamp(voxel, ivec3(0), ivec3(frame.dims.xyz) - 1), 0).r;
 }
 
+// The value at a place, in units of the texture, as `sample_volume` has it.
+float value_at(Place place) {
+    if (FILTER == HARDWARE) {
+        return textureLod(volume, (place.below + place.weight + 0.5) / frame.dims.xyz, 0.0).r;
+    }
+    return FILTER == NEAREST ? sample_nearest(place) : sample_exact(place);
+}
+
 // An artificial cost: so many further fetches, each where the one before it says. It changes no picture.
 layout(constant_id = 11) const uint EXTRA_FETCHES = 0;
 

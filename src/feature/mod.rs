@@ -18,6 +18,7 @@ mod holes;
 mod interpolation;
 mod last_sample;
 pub mod layers;
+pub mod light_paths;
 pub mod lights;
 mod opacity_correction;
 mod planes;
@@ -51,6 +52,7 @@ use holes::HOLES;
 use interpolation::{INTERPOLATION, SHADER_INTERPOLATION};
 use last_sample::LAST_SAMPLE;
 use layers::{CLIPPED, LAYER_BEFORE, LAYER_BEHIND};
+use light_paths::{SHADOWS, TRANSLUCENCY};
 use lights::{LIGHT_COLORS, LIT_SAMPLES};
 use opacity_correction::OPACITY_CORRECTION;
 use planes::CLIP_PLANES;
@@ -58,7 +60,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 34] = [
+pub const FEATURES: [&Feature; 36] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -93,6 +95,8 @@ pub const FEATURES: [&Feature; 34] = [
     &GRADIENTS_BESIDE_SAMPLES,
     &LIGHT_COLORS,
     &ENVIRONMENT,
+    &SHADOWS,
+    &TRANSLUCENCY,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

@@ -1,8 +1,8 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
-use crate::feature::surface;
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
+use crate::feature::{light_paths, surface};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -31,7 +31,7 @@ pub const RAY_CASTER: Method = Method {
     name: "",
     about: "",
     source: "",
-    takes: surface::check_opaque,
+    takes: |scene| surface::check_opaque(scene).and(light_paths::check_passes(scene)),
     papers: EARLY_Z,
     forms: every_form,
     ends_rays: true,

@@ -156,6 +156,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::layers::check(scene)?;
     feature::surface::check(scene)?;
     feature::lights::check(scene)?;
+    feature::light_paths::check(scene)?;
     feature::environment::check(scene)?;
     feature::gradients::check(scene)?;
     let view = View::new(scene)?;

@@ -42,7 +42,7 @@ static FRAME_INFO: ResourceInfo = ResourceInfo {
 pub const CLIP_PLANES: Resource = Resource::new(&CLIP_PLANES_INFO);
 static CLIP_PLANES_INFO: ResourceInfo = ResourceInfo {
     name: "clip_planes",
-    holds: "heights of the eye over clip planes and what rays rise by, `ClipPlane` of ray.glsl",
+    holds: "clip planes, heights of the eye over them and what rays rise by, `ClipPlane` of ray.glsl",
     kind: ResourceKind::Storage(|facts, _| (size_of::<shared::ClipPlane>() * facts.scene.clip_planes().len()) as u64),
     life: Life::Frame,
     origin: Origin::Host(|facts| {

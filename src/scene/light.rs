@@ -80,10 +80,36 @@ impl Light {
     }
 }
 
+/// What comes to a point of a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arriving {
+    /// The part that what stands between leaves of it, as a surface reflects it.
+    pub clear: f64,
+    /// The part that comes through what the surface encloses.
+    pub through: f64,
+}
+
+impl Arriving {
+    /// Light that nothing stands in the way of.
+    pub const WHOLE: Self = Self { clear: 1.0, through: 1.0 };
+}
+
 /// A surface of that colour in all lights. Both of its sides are lit: its normal is turned to the eye. Without a normal, and by
 /// a light in the point itself or behind the surface, it has the ambient part alone; the specular part does not take the
 /// surface's colour, and is 0 where the diffuse one is [Thesis §4.2.1].
 pub fn lit(color: [f64; 3], lights: &[Light], point: &LitPoint) -> [f64; 3] {
+    lit_by(color, lights, point, 0.0, |_| Arriving::WHOLE)
+}
+
+/// The same where not all of the light arrives; `through` is the part of diffuse and specular colours that light which comes through
+/// takes the place of. Such light shows as the surface's colour, from wherever it comes [Stegmaier05 §6].
+pub fn lit_by(
+    color: [f64; 3],
+    lights: &[Light],
+    point: &LitPoint,
+    through: f64,
+    mut arriving: impl FnMut(&Light) -> Arriving,
+) -> [f64; 3] {
     let normal = point.turned();
     let mut sum = [0.0; 3];
     for light in lights {
@@ -95,8 +121,11 @@ pub fn lit(color: [f64; 3], lights: &[Light], point: &LitPoint) -> [f64; 3] {
             }
             _ => (0.0, 0.0),
         };
+        let arriving = arriving(light);
         for c in 0..3 {
-            sum[c] += color[c] * (light.ambient[c] + light.diffuse[c] * diffuse) + light.specular[c] * specular;
+            let reflected = arriving.clear * (color[c] * light.diffuse[c] * diffuse + light.specular[c] * specular);
+            let come_through = color[c] * light.diffuse[c] * arriving.through;
+            sum[c] += color[c] * light.ambient[c] + (1.0 - through) * reflected + through * come_through;
         }
     }
     sum

@@ -2,6 +2,7 @@
 
 pub mod builtin;
 pub mod camera;
+mod effects;
 pub mod environment;
 pub mod field;
 pub(crate) mod file_name;

@@ -1,6 +1,7 @@
 //! What shaders know of clip planes.
 
 use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
 
 use super::double_float;
 use crate::math::polyhedron::HalfSpace;
@@ -16,6 +17,8 @@ pub struct ClipPlane {
     /// The height of the eye over the plane, and what base, right and down of the view's rays rise by over it: high parts, low
     /// parts.
     pub heights: [[f32; 4]; 2],
+    /// The plane in volume space: its normal, to where it keeps, and its height over the origin.
+    pub plane: [f32; 4],
 }
 
 impl ClipPlane {
@@ -23,6 +26,10 @@ impl ClipPlane {
         let rise = |way| plane.normal.dot(way);
         let height = plane.height(rays.eye).clamp(-FARTHEST, FARTHEST);
         let heights = [height, rise(rays.base), rise(rays.right), rise(rays.down)].map(double_float);
-        Self { heights: [0, 1].map(|part| heights.map(|height| height[part])) }
+        let [x, y, z] = plane.normal.to_array();
+        Self {
+            heights: [0, 1].map(|part| heights.map(|height| height[part])),
+            plane: [x, y, z, plane.height(DVec3::ZERO)].map(|c| c as f32),
+        }
     }
 }

@@ -26,6 +26,7 @@
 mod crossings;
 mod cubic;
 mod first;
+mod light_path;
 mod met;
 mod panel;
 
@@ -44,7 +45,7 @@ use crate::math::opacity::composite;
 use crate::math::polyhedron::HalfSpace;
 use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
-use crate::scene::light::{LitPoint, lit};
+use crate::scene::light::{LitPoint, lit_by};
 use crate::scene::mesh::DividedRay;
 use crate::scene::settings::{Filter, Shows};
 use crate::scene::{Field, Polygons, Scene, TransferFunction};
@@ -171,7 +172,7 @@ impl<'a> ExactIntegrator<'a> {
         let Some(found) = self.first_within(entry, direction, length, &ranges) else { return [0.0; 4] };
         let point = LitPoint { place: entry + found.t * direction, normal: found.gradient, view: -direction };
         let [r, g, b] = match scene.settings.surface.shows {
-            Shows::Color => shown_color(scene, colors[found.range], &point),
+            Shows::Color => self.shown_color(scene, colors[found.range], &point),
             Shows::Position => point.place.to_array(),
             Shows::Normal => point.turned().unwrap_or_default().to_array(),
         };
@@ -196,12 +197,19 @@ impl<'a> ExactIntegrator<'a> {
         let (mut pixel, mut from) = ([0.0; 4], 0.0);
         for (t, level, normal) in met {
             let point = LitPoint { place: entry + t * direction, normal, view: -direction };
-            let (color, opacity) = (shown_color(scene, surfaces[level].color, &point), surfaces[level].opacity);
+            let (color, opacity) = (self.shown_color(scene, surfaces[level].color, &point), surfaces[level].opacity);
             let [r, g, b] = color.map(|c| c * opacity);
             pixel = composite(composite(pixel, volume(from, t)), [r, g, b, opacity]);
             from = t;
         }
         composite(pixel, volume(from, length))
+    }
+
+    /// A surface of that colour in the lights of the scene, with what it reflects.
+    fn shown_color(&self, scene: &Scene, color: [f64; 3], point: &LitPoint) -> [f64; 3] {
+        let through = scene.translucency().map_or(0.0, |translucency| translucency.part);
+        let lit = lit_by(color, &scene.shining(), point, through, |light| self.arriving(scene, light, point));
+        scene.environment.as_ref().map_or(lit, |environment| environment.on(lit, point.normal, point.view))
     }
 
     /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to
@@ -303,12 +311,6 @@ impl<'a> ExactIntegrator<'a> {
             self.medium.add(&cell.cubic(), lengths, (b - a) / length, light);
         }
     }
-}
-
-/// A surface of that colour in the lights of the scene, with what it reflects.
-fn shown_color(scene: &Scene, color: [f64; 3], point: &LitPoint) -> [f64; 3] {
-    let lit = lit(color, &scene.shining(), point);
-    scene.environment.as_ref().map_or(lit, |environment| environment.on(lit, point.normal, point.view))
 }
 
 /// A ray that enters and leaves the volume's box at these depths, with its surfaces: `between` gives what lies between two

@@ -10,6 +10,7 @@ mod environment;
 pub mod fused;
 pub mod gradient;
 pub mod layer;
+mod light_path;
 pub mod lighting;
 pub mod main_pass;
 pub mod near_neighbor;

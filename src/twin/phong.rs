@@ -1,10 +1,10 @@
-//! Twin of `glsl/shared/phong.glsl`, whose formula is [`crate::scene::light::lit`]: with the gradient that the shader takes, and how far
+//! Twin of `glsl/shared/phong.glsl`, whose formula is [`crate::scene::light::lit_by`]: with the gradient that the shader takes, and how far
 //! f32 may be off.
 
 use glam::DVec3;
 
 use super::{Pixel, Twin};
-use crate::scene::light::{Light, LightPlace, LitPoint, lit};
+use crate::scene::light::{Light, LightPlace, LitPoint, lit_by};
 
 /// What f32 takes from a colour by a few products, and devices from an exponential: relative.
 const COLOR_ROUNDING: f64 = 1e-5;
@@ -30,6 +30,10 @@ pub(super) struct Shaded {
     pub turns: bool,
 }
 
+fn brightest_of(color: [f64; 3]) -> f64 {
+    color.into_iter().fold(0.0, f64::max)
+}
+
 impl Twin<'_> {
     /// The colour of a surface, or of a sample, `steps` from the entry point, of that colour in no light.
     pub(super) fn shaded(&self, pixel: &Pixel, steps: f64, color: [f64; 3], lights: &[Light]) -> Shaded {
@@ -37,14 +41,20 @@ impl Twin<'_> {
         let voxel = self.voxel(position);
         let (normal, off) = self.gradient_at(voxel);
         let point = LitPoint { place: (position - 0.5) * field.extent(), normal, view: -pixel.direction };
-        let shaded = lit(color, lights, &point);
+        let (mut unsure, mut less) = (false, 0.0);
+        let through = self.scene.translucency().map_or(0.0, |translucency| translucency.part);
+        let shaded = lit_by(color, lights, &point, through, |light| {
+            let found = self.arriving(light, &point);
+            unsure |= found.unsure;
+            less += found.rounding * brightest_of(std::array::from_fn(|c| color[c] * light.diffuse[c]));
+            found.arriving
+        });
         // How far the normal may be off, as an angle; one of no length at all has none.
         let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
-        let mut turns = normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(voxel);
-        let mut rounding = 0.0f64;
+        let mut turns = unsure || normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(voxel);
+        let mut rounding: f64 = less;
         for light in lights {
-            let largest = |part: [f64; 3]| part.into_iter().fold(0.0, f64::max);
-            let shown = largest(std::array::from_fn(|c| color[c] * light.diffuse[c]));
+            let shown = brightest_of(std::array::from_fn(|c| color[c] * light.diffuse[c]));
             // The way to a light nearby is off by what the place is.
             let near = match light.place {
                 LightPlace::Position(at) => PLACE_ROUNDING / at.distance(point.place).max(f64::MIN_POSITIVE),
@@ -54,10 +64,10 @@ impl Twin<'_> {
             // The steepest slope of cos(x)^n is below the root of n.
             let steepest = light.shininess.sqrt().max(1.0);
             let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
-            rounding += angle.min(2.0) * shown + largest(light.specular) * specular.min(1.0);
+            rounding += angle.min(2.0) * shown + brightest_of(light.specular) * specular.min(1.0);
             turns |= normal != DVec3::ZERO && angle > 0.0 && self.turns(light, &point, angle);
         }
-        let brightest = shaded.into_iter().fold(0.0, f64::max);
+        let brightest = brightest_of(shaded);
         Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, angle, turns }
     }
 

@@ -138,6 +138,9 @@ pub fn judged(device: &Arc<Device>, test: impl FnOnce(&Arc<Device>) -> Result<()
 /// Tests named at the end, those that took longest.
 const SLOWEST: usize = 8;
 
+/// Groups of tests that took less than this part of all are not named.
+const LARGE: f64 = 0.03;
+
 /// Tests that took less are not worth a line, in seconds.
 const SLOW: f64 = 2.0;
 
@@ -221,6 +224,17 @@ fn say_slowest() {
     for (seconds, name) in times.iter().filter(|(seconds, _)| *seconds >= SLOW).take(SLOWEST) {
         eprintln!("{seconds:6.1} s {name}");
     }
+    // Groups of tests: the first two parts of their names.
+    let mut groups: BTreeMap<String, f64> = BTreeMap::new();
+    for (seconds, name) in &times {
+        *groups.entry(name.split("::").take(2).collect::<Vec<_>>().join("::")).or_default() += seconds;
+    }
+    let large: Vec<String> = groups
+        .iter()
+        .filter(|(_, seconds)| **seconds >= LARGE * all)
+        .map(|(name, seconds)| format!("{name} {seconds:.0}"))
+        .collect();
+    eprintln!("groups that took most, in seconds: {}", large.join(", "));
 }
 
 /// CPU time of this process and of the programs it has started and waited for; none where the system does not say so.

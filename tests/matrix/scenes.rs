@@ -16,7 +16,7 @@ use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last,
     LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows,
-    SurfaceLevel, VolumeTexture,
+    SurfaceLevel, Translucency, VolumeTexture,
 };
 use depthleap::scene::{Camera, Environment, Scene};
 use glam::{DQuat, EulerRot};
@@ -27,7 +27,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 59] = [
+const KINDS: [(&str, Change); 62] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -153,6 +153,19 @@ const KINDS: [(&str, Change); 59] = [
         s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 0.5), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
         (s.surface.volume, s.sampling.classification) = (true, Classification::PreIntegrated);
         (s.sampling.step, s.surface.refine) = (1.3, Refine::None);
+    }),
+    ("an iso-surface that shades itself", |s| {
+        (s.surface.iso, s.effects.shadows, s.lights) = (Some(90.0), true, two_lights());
+        s.clips = vec![plane([0.3, -0.2, -1.0, 0.1])];
+    }),
+    ("a translucent iso-surface", |s| {
+        (s.surface.iso, s.lights) = (Some(90.0), two_lights());
+        s.effects.translucency = Some(Translucency { absorption: 3.0, part: 0.7 });
+    }),
+    ("translucent and transparent iso-surfaces in the shadow of each other", |s| {
+        s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 0.5), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
+        (s.surface.refine, s.effects.shadows, s.lights) = (Refine::Exact, true, two_lights());
+        s.effects.translucency = Some(Translucency { absorption: 2.0, part: 0.4 });
     }),
     ("places of an iso-surface", |s| {
         (s.surface.iso, s.surface.refine, s.surface.shows) = (Some(90.0), Refine::Exact, Shows::Position);

@@ -37,6 +37,13 @@ pub fn check_settings(job: &AccuracyJob) -> Result<()> {
 /// # Errors
 /// When it has none, or cannot be.
 pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
+    if scene.sees_through_surfaces() {
+        return Err(Error::usage(
+            "surface",
+            "has surfaces that rays go on behind, and accuracy holds the one that a ray meets against its root",
+            "give opacity = 1 and leave out surface.volume, or use render and bench",
+        ));
+    }
     if scene.surface.is_none() && !scene.lights.is_empty() {
         let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
         return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));

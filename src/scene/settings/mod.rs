@@ -12,6 +12,7 @@
 
 mod camera;
 mod clip;
+mod effects;
 mod environment;
 mod image;
 mod key;
@@ -40,6 +41,7 @@ pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
 pub use clip::{ClipOptions, ClipSettings};
+pub use effects::Translucency;
 pub use environment::{ENVIRONMENTS, Mapping};
 pub use image::Accumulate;
 pub use key::Key;
@@ -158,6 +160,7 @@ sections! {
     surface: SurfaceSettings, SurfaceOptions;
     shading: ShadingSettings, ShadingOptions;
     environment: EnvironmentSettings, EnvironmentOptions;
+    effects: EffectsSettings, EffectsOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;

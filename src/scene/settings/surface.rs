@@ -45,7 +45,7 @@ section! {
     refine: Refine = Refine::Linear;
 
     /// Draw surfaces together with the volume's colours, not in place of them
-    #[arg(long = "surface-volume", value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    #[arg(long = "surface-volume", num_args = 0, default_missing_value = "true")]
     volume: bool = false;
 
     /// What a pixel shows of the surface that its ray meets: its colour in all lights, its place or its normal as numbers

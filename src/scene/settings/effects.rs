@@ -1,0 +1,75 @@
+//! `[effects]`: what single-pass methods do besides [Stegmaier05 §6].
+
+use serde::{Deserialize, Serialize};
+
+use super::section::section;
+use crate::scene::limits::{Limits, WrongValue};
+
+/// Ways in front of a surface.
+const BIASES: Limits = Limits::from_to(0.0, 100.0, "voxels {}");
+
+/// The most that a volume unit takes of light: what is left of it behind a voxel of the finest volume is no number of f32.
+const MOST_ABSORPTION: f64 = 1e6;
+
+section! {
+    /// What single-pass methods do besides.
+    #[serde(expecting = "the section [effects]")]
+    #[command(next_help_heading = "Effects")]
+    EffectsSettings, EffectsOptions, "effects";
+
+    /// Let iso-surfaces shade each other and themselves
+    #[arg(long, num_args = 0, default_missing_value = "true")]
+    shadows: bool = false;
+
+    /// How far in front of a surface its ways to lights begin, in voxels of the finest spacing
+    #[arg(long = "shadow-bias", value_name = "VOXELS", allow_negative_numbers = true)]
+    shadow_bias: f64 = 1.0, within BIASES;
+
+    /// Light that comes through what iso-surfaces enclose
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(skip)]
+    translucency?: Translucency, by sound;
+
+    options {
+        /// Let light through iso-surfaces, which take so much of it in a volume unit
+        #[arg(long = "translucency", value_name = "ABSORPTION", allow_negative_numbers = true)]
+        pub absorption: Option<f64>,
+    }
+}
+
+impl EffectsOptions {
+    fn apply_others(&self, settings: &mut EffectsSettings) {
+        if let Some(absorption) = self.absorption {
+            settings.translucency = Some(Translucency { absorption, ..settings.translucency.unwrap_or_default() });
+        }
+    }
+}
+
+/// Light that comes through what the outermost iso-surface encloses [Stegmaier05 §6].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, expecting = "a table { absorption, part } of effects.translucency")]
+pub struct Translucency {
+    /// What a volume unit within takes of light: it leaves exp(-absorption).
+    pub absorption: f64,
+    /// The part of a surface's diffuse and specular colour that such light takes the place of.
+    pub part: f64,
+}
+
+impl Default for Translucency {
+    fn default() -> Self {
+        Self { absorption: 4.0, part: 1.0 }
+    }
+}
+
+/// What is wrong with a translucency.
+fn sound(translucency: &Option<Translucency>) -> Option<WrongValue> {
+    let wrong = |problem: String, remedy: String| Some(WrongValue { problem, remedy });
+    let Translucency { absorption, part } = translucency.as_ref()?;
+    if !(0.0..=MOST_ABSORPTION).contains(absorption) {
+        return wrong(format!("has the absorption {absorption}"), format!("give a number from 0 to {MOST_ABSORPTION}"));
+    }
+    if !(0.0..=1.0).contains(part) {
+        return wrong(format!("has the part {part}"), "give a part from 0 to 1".to_owned());
+    }
+    None
+}
