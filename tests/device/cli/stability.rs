@@ -11,7 +11,7 @@ use depthleap::vulkan::Device;
 
 use super::program::Place;
 use crate::frame::scenes::shapes;
-use crate::harness::{Need, Test, least, some_forms, test};
+use crate::harness::{Need, Test, all_forms, least, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
@@ -28,18 +28,18 @@ fn read(place: &Place) -> Stability {
 /// Words of the groups of cases that are about depths and what may be skipped by them.
 const OF_SKIPPING: [&str; 2] = ["trap", "buffer"];
 
-/// What is run: the cases with a text in their names, by some methods. All cases by all methods; where another driver does that, by
-/// the first of those that differ in no more than their distances; where others do all of it, by one that skips nothing, and cases of
+/// What is run: the cases with a text in their names, by some methods. All cases by the first of those methods that differ in no more
+/// than their distances, or by all where nothing is to be left out; where others do all of it, by one that skips nothing, and cases of
 /// skipping by the one that both draws and decides in its main passes. By that one all cases take three times as long there.
 fn asked() -> Vec<(&'static str, Vec<MethodName>)> {
-    match some_forms() {
-        _ if least() => {
+    match all_forms() {
+        false if least() => {
             let fused: Vec<MethodName> = shapes().into_iter().filter(|method| method.fused).map(Method::name).collect();
             let skipping = OF_SKIPPING.map(|group| (group, fused.clone()));
             iter::once(("", vec![RC_ERT.name()])).chain(skipping).collect()
         }
-        true => vec![("", shapes().into_iter().map(Method::name).chain([CPU.name()]).collect())],
-        false => vec![("", METHODS.map(Method::name).to_vec())],
+        false => vec![("", shapes().into_iter().map(Method::name).chain([CPU.name()]).collect())],
+        true => vec![("", METHODS.map(Method::name).to_vec())],
     }
 }
 
