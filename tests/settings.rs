@@ -7,9 +7,10 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 9] = [
+const WITHOUT_OPTION: [(&str, &str); 10] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
+    ("volume.mesh", "the argument SCENE|VOLUME names it"),
     ("transfer.preset", "--tf names it"),
     ("transfer.file", "--tf names it"),
     ("transfer.points", "they are too many for a command line"),
@@ -29,11 +30,12 @@ const WITHOUT_KEY: [(&str, &str); 5] = [
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 12] = [
+const WITHOUT_RANGE: [(&str, &str); 13] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
+    ("volume.mesh", "a name"),
     ("volume.range", "its two ends are held against one another"),
-    ("volume.dims", "held against the file"),
+    ("volume.dims", "held against the file, or against what memory may hold"),
     ("volume.type", "a word"),
     ("volume.spacing", "held against the file"),
     ("volume.endian", "a word"),
@@ -239,7 +241,7 @@ fn every_number_has_a_range_that_is_held() {
         // Absent by default: a list of numbers, a number, or a whole number.
         let like = default.unwrap_or(match name.as_str() {
             "volume.no_data" => Value::Array(vec![]),
-            "surface.iso" | "surface.iso_width" => Value::Float(0.0),
+            "volume.band" | "surface.iso" | "surface.iso_width" => Value::Float(0.0),
             _ => Value::Integer(0),
         });
         let whole = matches!(&like, Value::Integer(_))

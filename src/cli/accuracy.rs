@@ -32,7 +32,7 @@ use crate::scene::settings::MethodName;
   depthleap accuracy builtin:gaussian:64 --iso 0.4 -o out
   depthleap accuracy builtin:marschner-lobb:41 --full --viewport 100x100 -o out")]
 pub struct AccuracyCommand {
-    /// Scene file (.toml), volume file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
+    /// Scene file (.toml), volume file, mesh file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
     /// Folder for the files; made where it is missing

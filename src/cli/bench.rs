@@ -32,7 +32,7 @@ use crate::scene::settings::{CELLS, EXTRA_FETCHES, MethodName, Settings};
   depthleap bench engine.nrrd --method rc-block,nn-omni --cells 1,2,4,8 -o out
   depthleap render --from out/results.json#3 -o again.png")]
 pub struct BenchCommand {
-    /// Scene files (.toml), volume files, builtin:NAME:SIZE or built-in scenes
+    /// Scene files (.toml), volume files, mesh files, builtin:NAME:SIZE or built-in scenes
     #[arg(value_name = "SCENE|VOLUME", default_values = BUILT_IN)]
     scenes: Vec<OsString>,
     /// Folder for report.html, results.json and results.csv; made where it is missing

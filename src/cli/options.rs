@@ -25,7 +25,7 @@ pub struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The settings of `scene` (a scene file, a volume, `builtin:NAME:SIZE`, the `builtin:NAME` of a scene, or nothing)
+    /// The settings of `scene` (a scene file, a volume, a mesh, `builtin:NAME:SIZE`, the `builtin:NAME` of a scene, or nothing)
     /// under these options.
     ///
     /// # Errors
@@ -37,7 +37,12 @@ impl SceneOptions {
             Some(name) => match (is_scene_file(name), built_in(name)) {
                 (true, _) => settings = read::settings(Path::new(name))?,
                 (false, Some(name)) => settings = built_in_settings(name)?,
-                (false, None) => settings.volume.path = Some(PathBuf::from(name)),
+                (false, None) => {
+                    let file = PathBuf::from(name);
+                    let is_mesh = read::mesh::by_extension(&file).is_some();
+                    let key = if is_mesh { &mut settings.volume.mesh } else { &mut settings.volume.path };
+                    *key = Some(file);
+                }
             },
         }
         self.apply(&mut settings);
@@ -87,7 +92,12 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
 /// clip meshes, of its clip planes and of its lights, and whether it has an environment.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
-    let file = volume.path.as_deref().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
+    let file = volume
+        .path
+        .as_deref()
+        .or(volume.mesh.as_deref())
+        .and_then(Path::file_stem)
+        .map(|s| s.to_string_lossy().into_owned());
     let built_in = || volume.builtin.clone().unwrap_or_else(|| builtin::DEFAULT.to_owned());
     let transfer = &settings.transfer;
     let surfaces = settings.surface.asked();

@@ -28,7 +28,7 @@ use crate::scene::settings::MethodName;
   depthleap plan --method nn-omni --cull ztest --json plan.json
   depthleap plan scene.toml --json - | jq .passes")]
 pub struct PlanCommand {
-    /// Scene file (.toml), volume file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
+    /// Scene file (.toml), volume file, mesh file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
     /// Render method [default: nn-omni]

@@ -33,7 +33,7 @@ use crate::scene::settings::MethodName;
   depthleap render head.raw --dims 256,256,128 --type u16 -o head.npy
   depthleap render fuel.nrrd -o fuel.png --json - | jq .fragments.main")]
 pub struct Render {
-    /// Scene file (.toml), volume file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
+    /// Scene file (.toml), volume file, mesh file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
     /// Picture: .png (8-bit sRGB over --background), .exr or .npy (float, linear, premultiplied; NPY [height][width][4],

@@ -1,4 +1,7 @@
-//! A hierarchy of boxes around items, for finding those that a ray may meet.
+//! A hierarchy of boxes around items, for finding those that a ray may meet, the one nearest to a point, and sums over those
+//! far away.
+
+use std::ops::Range;
 
 use glam::DVec3;
 
@@ -29,7 +32,18 @@ impl Bounds {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
 
-    fn middle(self) -> DVec3 {
+    /// The square of a point's distance; 0 inside.
+    pub fn squared_distance(self, point: DVec3) -> f64 {
+        (self.least - point).max(point - self.greatest).max(DVec3::ZERO).length_squared()
+    }
+
+    /// The square of the distance of the point of the box that is farthest from a point.
+    pub fn squared_reach(self, point: DVec3) -> f64 {
+        (point - self.least).max(self.greatest - point).length_squared()
+    }
+
+    /// The point in its middle.
+    pub fn middle(self) -> DVec3 {
         0.5 * (self.least + self.greatest)
     }
 
@@ -117,6 +131,99 @@ impl Hierarchy {
             }
         }
         found
+    }
+
+    /// The items in the order of leaves, in which those of a node stand together. Their places in it are what follows speaks of.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// The item nearest to a point, by its place, with the square of its distance; none where no item is nearer than the root of
+    /// `limit`. `squared` gives the square of an item's distance by its place; what is not below its second argument is not
+    /// looked at.
+    pub fn nearest(&self, point: DVec3, limit: f64, squared: &impl Fn(usize, f64) -> f64) -> Option<(usize, f64)> {
+        let mut best = (None, limit);
+        if !self.nodes.is_empty() {
+            self.nearer(0, point, squared, &mut best);
+        }
+        best.0.map(|place| (place, best.1))
+    }
+
+    fn nearer(&self, at: usize, point: DVec3, squared: &impl Fn(usize, f64) -> f64, best: &mut (Option<usize>, f64)) {
+        match self.nodes[at].1 {
+            Node::Leaf { first, end } => {
+                for place in first as usize..end as usize {
+                    if self.boxes[place].squared_distance(point) < best.1 {
+                        let distance = squared(place, best.1);
+                        if distance < best.1 {
+                            *best = (Some(place), distance);
+                        }
+                    }
+                }
+            }
+            Node::Inner { other } => {
+                let mut children =
+                    [at + 1, other as usize].map(|node| (node, self.nodes[node].0.squared_distance(point)));
+                if children[1].1 < children[0].1 {
+                    children.swap(0, 1);
+                }
+                for (node, distance) in children {
+                    if distance < best.1 {
+                        self.nearer(node, point, squared, best);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Something of each node, in the order that [`Self::visit`] numbers nodes in: made by `leaf` of the places of a leaf's items,
+    /// joined by `join` of what was made of a node's two parts; both are given the node's box.
+    pub fn gathered<T: Copy>(
+        &self,
+        leaf: impl Fn(Bounds, Range<usize>) -> T,
+        join: impl Fn(Bounds, T, T) -> T,
+    ) -> Vec<T> {
+        // The parts of a node stand behind it.
+        let mut backwards: Vec<T> = Vec::with_capacity(self.nodes.len());
+        for (at, (bounds, node)) in self.nodes.iter().enumerate().rev() {
+            let of = |node: usize| backwards[self.nodes.len() - 1 - node];
+            let made = match *node {
+                Node::Leaf { first, end } => leaf(*bounds, first as usize..end as usize),
+                Node::Inner { other } => join(*bounds, of(at + 1), of(other as usize)),
+            };
+            backwards.push(made);
+        }
+        backwards.reverse();
+        backwards
+    }
+
+    /// Goes through the nodes from the root on. `opens` is asked of each, by its number and its box, whether its parts are gone
+    /// through too; where it says so of a leaf, `leaf` is given the places of its items, and the box.
+    /// `state` is handed through.
+    pub fn visit<S>(
+        &self,
+        state: &mut S,
+        opens: impl Fn(&mut S, usize, Bounds) -> bool,
+        leaf: impl Fn(&mut S, Range<usize>, Bounds),
+    ) {
+        // As deep as the hierarchy: it halves its items, whose numbers have 32 bits.
+        let mut waiting = [0; u32::BITS as usize + 1];
+        let mut count = usize::from(!self.nodes.is_empty());
+        while let Some(next) = count.checked_sub(1) {
+            count = next;
+            let at = waiting[next];
+            let (bounds, node) = self.nodes[at];
+            if !opens(state, at, bounds) {
+                continue;
+            }
+            match node {
+                Node::Leaf { first, end } => leaf(state, first as usize..end as usize, bounds),
+                Node::Inner { other } => {
+                    [waiting[count], waiting[count + 1]] = [other as usize, at + 1];
+                    count += 2;
+                }
+            }
+        }
     }
 
     /// The box around all items.

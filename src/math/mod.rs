@@ -1,4 +1,4 @@
-//! Formulas that the passes, the reference and the structures share: rays and boxes, interpolation, opacity, blending.
+//! Formulas that the passes, the reference and the structures share: rays, boxes and triangles, interpolation, opacity, blending.
 
 pub mod blend;
 pub mod bvh;
@@ -6,3 +6,4 @@ pub mod interpolate;
 pub mod opacity;
 pub mod polyhedron;
 pub mod ray;
+pub mod triangle;

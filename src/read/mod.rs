@@ -110,11 +110,7 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &ReadChoice) -> 
             None => return Err(unknown(path, length)),
         },
     };
-    let sides = [0, 1, 2].map(|a| volume.dims[a] as f64 * volume.spacing[a]);
-    if !sides.iter().all(|s| SIDES.contains(s)) {
-        let remedy = format!("give a spacing that keeps them from {:e} to {:e}", SIDES.start(), SIDES.end());
-        return Err(Error::input(path.display(), format!("has the sides {sides:?}"), remedy));
-    }
+    check_sides(&volume, "give a spacing")?;
     let rounded = voxels::rounded(&volume.voxels);
     if rounded > 0 {
         volume
@@ -122,6 +118,19 @@ pub fn volume_with(path: &Path, raw: Option<RawLayout>, choice: &ReadChoice) -> 
             .push(format!("{rounded} voxels are integers beyond 2^53, which are rounded to the nearest f64"));
     }
     Ok(volume)
+}
+
+/// Whether the sides of a volume are of a length that arithmetic survives; `remedy` has them so.
+///
+/// # Errors
+/// When one is not.
+fn check_sides(volume: &Volume, remedy: &str) -> Result<()> {
+    let sides = [0, 1, 2].map(|a| volume.dims[a] as f64 * volume.spacing[a]);
+    if sides.iter().all(|s| SIDES.contains(s)) {
+        return Ok(());
+    }
+    let remedy = format!("{remedy} that keeps them from {:e} to {:e}", SIDES.start(), SIDES.end());
+    Err(Error::input(&volume.name, format!("has the sides {sides:?}"), remedy))
 }
 
 impl ReadChoice<'_> {
@@ -160,8 +169,14 @@ fn by_extension(path: &Path) -> Option<&'static Format> {
 
 fn unknown(path: &Path, length: u64) -> Error {
     let known: Vec<_> = FORMATS.iter().map(|f| format!("{} (.{})", f.name, f.extensions.join(", ."))).collect();
-    let remedy =
-        format!("give a file of {}, or dims and type for raw voxels; scene files end in .toml", known.join(", "));
+    let is_mesh = mesh::by_extension(path).is_some();
+    let remedy = match is_mesh {
+        true => "give a mesh as volume.mesh in a scene file, for its distance field, or as path of a table [[mesh]]"
+            .to_owned(),
+        false => {
+            format!("give a file of {}, or dims and type for raw voxels; scene files end in .toml", known.join(", "))
+        }
+    };
     Error::input(path.display(), format!("is of no known volume format ({length} bytes)"), remedy)
 }
 

@@ -10,6 +10,7 @@ use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::HalfSpace;
 use crate::scene::mesh::{Mesh, shape};
+use crate::scene::mesh_field::{self, DEFAULT_BAND};
 use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
 use crate::scene::{Camera, ClipPlanes, Field, Polygons, Scene, Surface, TextureUnit, Volume, builtin};
 
@@ -152,16 +153,33 @@ fn polygons(settings: &Settings, turn: DQuat) -> Result<Polygons> {
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {
-    let raw = raw_layout(settings)?;
+    let VolumeSettings { path, builtin, mesh, .. } = settings;
+    let sources = [("path", path.is_some()), ("builtin", builtin.is_some()), ("mesh", mesh.is_some())];
+    let given: Vec<&str> = sources.into_iter().filter_map(|(key, given)| given.then_some(key)).collect();
+    match given[..] {
+        [one, other] => return Err(Error::usage("volume", format!("has both {one} and {other}"), "keep one of them")),
+        [_, _, _] => return Err(Error::usage("volume", "has path, builtin and mesh", "keep one of them")),
+        _ => {}
+    }
     let choice = ReadChoice {
         component: settings.component,
         frame: settings.frame,
         orientation: settings.orientation,
         no_data: &settings.no_data,
     };
-    match (&settings.path, &settings.builtin) {
-        (Some(_), Some(_)) => Err(Error::usage("volume", "has both path and builtin", "keep one of them")),
-        (Some(path), None) => super::volume_with(path, raw, &choice),
+    if let Some(mesh) = mesh {
+        return distances(mesh, settings, &choice);
+    }
+    if settings.band.is_some() {
+        return Err(Error::usage(
+            "volume.band (--band)",
+            "is given without a mesh",
+            "give volume.mesh, whose distance field it is of, or leave it out",
+        ));
+    }
+    let raw = raw_layout(settings)?;
+    match (path, builtin) {
+        (Some(path), _) => super::volume_with(path, raw, &choice),
         (None, _) if raw.is_some() => {
             Err(Error::usage("volume", "has dims and type but no path", "give the path of a raw file, or remove them"))
         }
@@ -171,6 +189,28 @@ fn volume(settings: &VolumeSettings) -> Result<Volume> {
             builtin::volume(name)
         }
     }
+}
+
+/// The distance field of the mesh in a file.
+fn distances(path: &Path, settings: &VolumeSettings, choice: &ReadChoice) -> Result<Volume> {
+    let VolumeSettings { dims, voxel_type, spacing, endian, skip, .. } = settings;
+    let of_raw = [
+        ("type", voxel_type.is_some()),
+        ("spacing", spacing.is_some()),
+        ("endian", endian.is_some()),
+        ("skip", skip.is_some()),
+    ];
+    if let Some((key, _)) = of_raw.into_iter().find(|(_, given)| *given) {
+        return Err(Error::usage(
+            format!("volume.{key} (--{key})"),
+            "is given for a mesh's distance field, and is of raw files",
+            "leave it out: of a mesh's field dims and band can be chosen",
+        ));
+    }
+    choice.not_of(path, "distances from a mesh")?;
+    let volume = mesh_field::volume(&super::mesh(path)?, *dims, settings.band.unwrap_or(DEFAULT_BAND))?;
+    super::check_sides(&volume, "scale the mesh to a size")?;
+    Ok(volume)
 }
 
 /// What the settings say of a raw file; none where they say nothing.

@@ -12,6 +12,7 @@ pub mod light;
 pub mod limits;
 pub mod longest;
 pub mod mesh;
+pub mod mesh_field;
 pub mod method;
 pub mod planes;
 pub mod projection;

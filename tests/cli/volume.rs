@@ -25,6 +25,7 @@ fn help_has_every_option_of_volumes() {
             "--no-data <VALUE,...>",
             "--component <0..N|luminance|magnitude>",
             "--frame <N>",
+            "--band <VOXELS>",
             "--orientation <AXES>",
             "--endian <ORDER>",
             "--skip <BYTES>",
@@ -136,6 +137,44 @@ fn every_setting_of_a_volume_is_repeated_from_json() {
         assert_eq!(place.read("first.npy"), place.read("second.npy"), "{arguments}");
         assert_eq!(place.json("first.json")["settings"], place.json("second.json")["settings"], "{arguments}");
         assert!(npy(&place.read("first.npy")).1.iter().any(|channel| *channel > 0.0), "{arguments} shows nothing");
+    }
+}
+
+/// A tetrahedron whose fronts are outside.
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+#[test]
+fn a_mesh_is_a_volume_of_its_distances() {
+    let place = driverless();
+    place.file("a.obj", TETRAHEDRON);
+    let field = "a.obj --dims 20,21,22 --band 3 --iso 0";
+    let told = place.done(&format!("render {field} {LOOK} -o first.npy --json first.json")).err;
+    assert!(told.contains("note: a, iso 0: distances from the 4 triangles of a.obj"), "{told}");
+    let first = place.json("first.json");
+    let volume = &first["settings"]["volume"];
+    assert_eq!((&volume["mesh"], &volume["band"]), (&"a.obj".into(), &3.0.into()), "{volume}");
+    assert!(npy(&place.read("first.npy")).1.iter().any(|channel| *channel > 0.0), "nothing shows");
+    place.done("render --from first.json -o second.npy --json second.json");
+    assert_eq!(place.read("first.npy"), place.read("second.npy"));
+    assert_eq!(first["settings"], place.json("second.json")["settings"]);
+    // Beside a results file in another folder the mesh is found again.
+    std::fs::create_dir(place.path().join("out")).unwrap();
+    place.done(&format!("render {field} {LOOK} -o third.npy --json out/third.json"));
+    assert_eq!(place.json("out/third.json")["settings"]["volume"]["mesh"], "../a.obj");
+    place.done("render --from out/third.json -o third.npy");
+    assert_eq!(place.read("first.npy"), place.read("third.npy"));
+    place.file("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let told = place.done(&format!("render sheet.obj --dims 20,20,20 --iso 0 {LOOK} -o a.png")).err;
+    assert!(told.contains("warning: sheet, iso 0: the mesh sheet.obj") && told.contains("has no inside"), "{told}");
+    for (arguments, code, parts) in [
+        ("none.stl --dims 20,20,20", 3, ["none.stl", "cannot be read", "check"]),
+        ("a.obj --dims 9,20,20", 3, ["a.obj", "9 x 20 x 20", "at least 10"]),
+        ("a.obj --dims 2049,20,20", 3, ["a.obj", "2049 x 20 x 20", "2048 along a side"]),
+        ("a.obj --dims 20,20,20 --type u8", 2, ["--type", "distance field", "leave it out"]),
+        ("a.obj --band 0", 2, ["--band", "is 0", "from 1 to 512"]),
+        ("builtin:shells:8 --band 2", 2, ["--band", "without a mesh", "volume.mesh"]),
+    ] {
+        place.refused(&format!("render {arguments} {LOOK} -o a.png"), code, &parts);
     }
 }
 

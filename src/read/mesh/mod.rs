@@ -38,12 +38,7 @@ pub static MESH_FORMATS: [MeshFormat; 4] = [
 pub fn mesh(path: &Path) -> Result<Mesh> {
     let bytes = super::bytes(path)?;
     let by_content = MESH_FORMATS.iter().find(|format| (format.recognises)(&bytes));
-    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let by_extension = || {
-        let extension = extension.as_deref()?;
-        MESH_FORMATS.iter().find(|format| format.extensions.contains(&extension))
-    };
-    match by_content.or_else(by_extension) {
+    match by_content.or_else(|| by_extension(path)) {
         Some(format) => (format.read)(path, &bytes),
         None => {
             let named = |format: &MeshFormat| format!("{} (.{})", format.name, format.extensions.join(", ."));
@@ -52,4 +47,10 @@ pub fn mesh(path: &Path) -> Result<Mesh> {
             Err(Error::input(path.display(), problem, format!("give a file of {}", known.join(", "))))
         }
     }
+}
+
+/// The format of meshes that a file's ending stands for.
+pub fn by_extension(path: &Path) -> Option<&'static MeshFormat> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    MESH_FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str()))
 }

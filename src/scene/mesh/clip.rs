@@ -1,10 +1,10 @@
 //! Clip geometry [Thesis ch. 6 §3]: which parts of a ray it keeps.
 
 use glam::DVec3;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::Mesh;
+use super::edges::open_edges;
 use crate::math::bvh::Bounds;
 use crate::math::ray::ViewRays;
 
@@ -69,7 +69,7 @@ impl ClipMesh {
     /// A mesh with its corners in volume space.
     pub fn new(mesh: &Mesh, corners: &[[f32; 3]], keep: Keep) -> Self {
         let bounds = Bounds::around(corners.iter().map(|c| DVec3::from_array(c.map(f64::from))));
-        let open_edges = if keep == Keep::Thesis { 0 } else { open_edges(mesh, corners) };
+        let open_edges = if keep == Keep::Thesis { 0 } else { open_edges(&mesh.triangles, corners).len() };
         Self { name: mesh.name.clone(), keep, bounds, open_edges }
     }
 
@@ -82,33 +82,4 @@ impl ClipMesh {
         let apart = near.greatest.cmplt(self.bounds.least) | near.least.cmpgt(self.bounds.greatest);
         self.open_edges == 0 && apart.any()
     }
-}
-
-/// Edges that are gone along in one direction more often than in the other, by the places of their ends.
-fn open_edges(mesh: &Mesh, corners: &[[f32; 3]]) -> usize {
-    let places = places(corners);
-    let ends = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|i| places[i as usize]);
-        [(a, b), (b, c), (c, a)]
-    };
-    // Each edge by its lesser end, with the direction.
-    let directed = |(from, to): (u32, u32)| ((from.min(to), from.max(to)), if from < to { 1 } else { -1 });
-    let edges = mesh.triangles.iter().flat_map(ends).filter(|(from, to)| from != to);
-    let mut edges: Vec<((u32, u32), i32)> = edges.map(directed).collect();
-    edges.par_sort_unstable();
-    let of_one = edges.chunk_by(|a, b| a.0 == b.0);
-    of_one.filter(|edge| edge.iter().map(|(_, direction)| direction).sum::<i32>() != 0).count()
-}
-
-/// A number for each corner, the same for those that lie at one place.
-fn places(corners: &[[f32; 3]]) -> Vec<u32> {
-    // Adding 0 makes one of the two zeros.
-    let key = |i: &u32| corners[*i as usize].map(|c| (c + 0.0).to_bits());
-    let mut order: Vec<u32> = (0..corners.len() as u32).collect();
-    order.par_sort_unstable_by_key(key);
-    let mut places = vec![0; corners.len()];
-    for (number, alike) in order.chunk_by(|a, b| key(a) == key(b)).enumerate() {
-        alike.iter().for_each(|corner| places[*corner as usize] = number as u32);
-    }
-    places
 }

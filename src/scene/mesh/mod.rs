@@ -3,6 +3,7 @@
 mod clip;
 mod crossings;
 mod cuts;
+mod edges;
 mod polygons;
 mod shapes;
 mod snapshot;
@@ -10,6 +11,7 @@ mod snapshot;
 pub use clip::{ClipMesh, Keep, MOST_CLIPS, Windings};
 pub use crossings::{Crossing, Crossings};
 pub use cuts::{Cut, Cuts, DividedRay, ShownSurface};
+pub use edges::{OpenEdge, open_edges};
 pub use polygons::{Material, Polygons, Triangle};
 pub use shapes::{SHAPES, Shape, shape};
 

@@ -9,6 +9,7 @@ use super::section::section;
 use crate::scene::field::{NanPolicy, Normalisation};
 use crate::scene::fixed;
 use crate::scene::limits::{Allowed, Limits, WrongValue};
+use crate::scene::mesh_field::{DEFAULT_BAND, DEFAULT_SIDE};
 use crate::scene::range::RangeEnd;
 use crate::scene::volume::VoxelType;
 use crate::scene::volume_choice::{Component, Endian, Orientation};
@@ -23,7 +24,7 @@ pub const RAW_SKIP: i64 = 0;
 const DEFAULT_PRECISION: f64 = 1.0 / 512.0;
 
 section! {
-    /// The volume: a file or a built-in one, what is taken of it, and how its voxels become x.
+    /// The volume: a file, a built-in one or the distance field of a mesh, what is taken of it, and how its voxels become x.
     #[serde(expecting = "the section [volume]")]
     #[command(next_help_heading = "Scene")]
     VolumeSettings, VolumeOptions, "volume";
@@ -37,6 +38,11 @@ section! {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(skip)]
     builtin?: String;
+
+    /// A file of PLY, OBJ, STL or glTF, relative to the scene file, whose distance field is the volume
+    #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]
+    #[arg(skip)]
+    mesh?: PathBuf;
 
     /// Scalar range that the transfer function covers, in the volume's values or as percentiles of them (1%,99%)
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
@@ -53,10 +59,18 @@ section! {
     no_data: Vec<f64> = Vec::new(),
         within Limits::new(Allowed::Finite, "finite numbers; NaN and infinities stand for no value anyway");
 
-    /// Voxels along x, y and z of a raw file (x varies fastest)
+    /// Voxels along x, y and z of a raw file (x varies fastest), or of a mesh's distance field
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
     #[arg(long, value_name = "X,Y,Z", value_parser = counts, allow_hyphen_values = true)]
-    dims?: [usize; 3];
+    dims?: [usize; 3],
+        default format!("of a mesh {DEFAULT_SIDE} along its longest side and what the others take");
+
+    /// Voxels to each side of a mesh's surface in which distances are not clamped
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
+    band?: f64,
+        within Limits::from_to(1.0, 512.0, "a number of voxels {}"),
+        default DEFAULT_BAND;
 
     /// Voxel type of a raw file
     #[serde(skip_serializing_if = "Option::is_none")]
