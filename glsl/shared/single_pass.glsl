@@ -32,6 +32,9 @@
 #ifdef ENVIRONMENT
 #include "shared/environment.glsl"
 #endif
+#ifdef EFFECT
+#include "shared/effect.glsl"
+#endif
 #ifdef SURFACE
 #include "shared/surface.glsl"
 #include "shared/root.glsl"

@@ -11,6 +11,7 @@ mod counting;
 mod decisions;
 mod distances;
 mod early_ends;
+pub mod effect;
 pub mod environment;
 mod extra_fetches;
 pub mod gradients;
@@ -33,6 +34,7 @@ pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
+pub use effect::EFFECT;
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
@@ -58,7 +60,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 32] = [
+pub const FEATURES: [&Feature; 33] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -91,6 +93,7 @@ pub const FEATURES: [&Feature; 32] = [
     &GRADIENTS_BESIDE_SAMPLES,
     &LIGHT_COLORS,
     &ENVIRONMENT,
+    &EFFECT,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

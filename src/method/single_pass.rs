@@ -12,6 +12,7 @@ const fn row(name: &'static str, about: &'static str, ahead: Ahead, skips_of: Op
         name,
         about,
         source: "Stegmaier05 §5",
+        takes: |_| Ok(()),
         papers: None,
         forms: Vec::new,
         ahead,

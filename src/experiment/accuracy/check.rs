@@ -37,6 +37,10 @@ pub fn check_settings(job: &AccuracyJob) -> Result<()> {
 /// # Errors
 /// When it has none, or cannot be.
 pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
+    if let Some(effect) = &scene.effect {
+        let problem = format!("is {}, of whose colours no exact integral is known", effect.file());
+        return Err(Error::usage("effects.file (--effect)", problem, "leave it out"));
+    }
     if scene.surface.is_none() && !scene.lights.is_empty() {
         let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
         return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));

@@ -12,6 +12,7 @@
 
 mod camera;
 mod clip;
+mod effects;
 mod environment;
 mod image;
 mod key;
@@ -138,7 +139,7 @@ impl Settings {
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
         let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
-        [&mut self.volume.path, &mut self.transfer.file, &mut self.environment.image]
+        [&mut self.volume.path, &mut self.transfer.file, &mut self.environment.image, &mut self.effects.file]
             .into_iter()
             .chain(meshes)
             .chain(clips)
@@ -158,6 +159,7 @@ sections! {
     surface: SurfaceSettings, SurfaceOptions;
     shading: ShadingSettings, ShadingOptions;
     environment: EnvironmentSettings, EnvironmentOptions;
+    effects: EffectsSettings, EffectsOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
     sampling: SamplingSettings, SamplingOptions;
