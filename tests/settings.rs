@@ -7,7 +7,7 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 9] = [
+const WITHOUT_OPTION: [(&str, &str); 11] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("transfer.preset", "--tf names it"),
@@ -16,20 +16,23 @@ const WITHOUT_OPTION: [(&str, &str); 9] = [
     ("surface.levels", "they are too many for a command line"),
     ("environment.image", "--environment names it"),
     ("environment.builtin", "--environment names it"),
+    ("effects.file", "--effect names it"),
+    ("effects.hash", "runs note it"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
 ];
 
 /// Options that are no keys, and the key that each of them changes.
-const WITHOUT_KEY: [(&str, &str); 5] = [
+const WITHOUT_KEY: [(&str, &str); 6] = [
     ("tf", "transfer.preset"),
     ("azimuth", "camera.eye"),
     ("elevation", "camera.eye"),
     ("distance", "camera.eye"),
     ("environment", "environment.builtin"),
+    ("effect", "effects.file"),
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 12] = [
+const WITHOUT_RANGE: [(&str, &str); 14] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.range", "its two ends are held against one another"),
@@ -42,6 +45,8 @@ const WITHOUT_RANGE: [(&str, &str); 12] = [
     ("surface.levels", "tables, each with its checks"),
     ("environment.image", "a name"),
     ("environment.builtin", "a name"),
+    ("effects.file", "a name"),
+    ("effects.hash", "held against the file"),
 ];
 
 /// What else may be absent: sources of a transfer function, which has checks of its own.
