@@ -7,6 +7,7 @@
 //@takes [LEAP_BLOCKS | LEAP_DISTANCES], [ENDLESS], [GOES_ON], [HOLES | PREINTEGRATED], [PLANES]
 //@takes [VALUES], [SURFACE], [TRANSPARENT], [IN_VOLUME], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [SHADOWS], [TRANSLUCENT], [GRADIENTS], [ENVIRONMENT]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED]
+//@takes [EFFECT]
 
 #define COMPUTE
 #include "shared/single_pass.glsl"
@@ -35,3 +36,8 @@ void main() {
 #endif
     imageStore(accumulated, pixel, cast_ray(ray, held));
 }
+
+#ifdef EFFECT
+// The user's file, behind all else: what it defines has no meaning in the program's own text.
+#include "effect.glsl"
+#endif

@@ -16,6 +16,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
 pub use shader::Shader;
+pub use source::Insert;
 
 use crate::error::{Error, Result};
 use cache::Cache;

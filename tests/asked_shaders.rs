@@ -42,7 +42,7 @@ fn fresh() -> &'static [(Source, ShaderModule)] {
     MODULES.get_or_init(|| {
         let asked = asked::shaders(&asked::plans());
         let fresh = |shader: Source| {
-            let text = glsl::built_in().text(shader.file).unwrap();
+            let text = glsl::built_in().text(shader.file).unwrap().with(shader.insert.as_deref());
             let defines: Vec<&str> = shader.defines.iter().copied().collect();
             let made = compile(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
             assert_eq!(made.warnings, "", "{shader}");

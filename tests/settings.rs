@@ -7,7 +7,7 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 10] = [
+const WITHOUT_OPTION: [(&str, &str); 13] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("volume.mesh", "the argument SCENE|VOLUME names it"),
@@ -17,20 +17,25 @@ const WITHOUT_OPTION: [(&str, &str); 10] = [
     ("surface.levels", "they are too many for a command line"),
     ("environment.image", "--environment names it"),
     ("environment.builtin", "--environment names it"),
+    ("effects.file", "--effect names it"),
+    ("effects.hash", "runs note it"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
+    ("effects.translucency", "--translucency gives its absorption"),
 ];
 
 /// Options that are no keys, and the key that each of them changes.
-const WITHOUT_KEY: [(&str, &str); 5] = [
+const WITHOUT_KEY: [(&str, &str); 7] = [
     ("tf", "transfer.preset"),
     ("azimuth", "camera.eye"),
     ("elevation", "camera.eye"),
     ("distance", "camera.eye"),
     ("environment", "environment.builtin"),
+    ("effect", "effects.file"),
+    ("absorption", "effects.translucency"),
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 13] = [
+const WITHOUT_RANGE: [(&str, &str); 16] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.mesh", "a name"),
@@ -44,6 +49,9 @@ const WITHOUT_RANGE: [(&str, &str); 13] = [
     ("surface.levels", "tables, each with its checks"),
     ("environment.image", "a name"),
     ("environment.builtin", "a name"),
+    ("effects.file", "a name"),
+    ("effects.hash", "held against the file"),
+    ("effects.translucency", "a table, whose numbers are held against theirs"),
 ];
 
 /// What else may be absent: sources of a transfer function, which has checks of its own.

@@ -26,7 +26,7 @@ float value_at_point(vec3 point) {
 
 // How far it is from a point along a unit vector until the volume is left, or what clip planes keep of it, or the light is reached.
 float way_out(vec3 point, vec3 way, float reach) {
-    vec3 faces = mix(-0.5, 0.5, greaterThan(way, vec3(0.0))) * frame.extent[0].xyz;
+    vec3 faces = mix(vec3(-0.5), vec3(0.5), greaterThan(way, vec3(0.0))) * frame.extent[0].xyz;
     vec3 leaves = mix((faces - point) / way, vec3(UNBOUNDED), equal(way, vec3(0.0)));
     float out_at = min(min(leaves.x, leaves.y), min(leaves.z, reach));
 #ifdef PLANES

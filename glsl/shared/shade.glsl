@@ -1,7 +1,8 @@
 // What samples bring to their ray. Twin: src/twin/segment.rs, of SURFACE src/twin/surface.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
 // opacity.glsl and projection.glsl. SURFACE (with VALUES, unless IN_VOLUME): surface.glsl. LIT: each sample is lit by its
-// gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl. GRADIENTS: that and its value are in one texture.
+// gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl. GRADIENTS: that and its value are in one texture. EFFECT:
+// effect.glsl.
 
 #if !defined(PREINTEGRATED) && !defined(VALUES)
 // Bring opacities from the reference length to the step.
@@ -68,10 +69,11 @@ vec4 color_of_sample(Ray ray, uint i, out float clear) {
 #if defined(GRADIENTS) && !defined(SURFACE)
     // Value and gradient in one fetch [Stegmaier05 §4].
     vec4 texel = gradient_texel(place_at(ray, steps_to(i)));
-    vec4 color = classify(burdened_beside(value_of(texel)), clear);
+    float value = burdened_beside(value_of(texel));
 #else
-    vec4 color = classify(sample_volume(ray, steps_to(i)), clear);
+    float value = sample_volume(ray, steps_to(i));
 #endif
+    vec4 color = classify(value, clear);
 #ifdef LIT
     // What does not show needs no light.
     if (color.a > 0.0) {
@@ -84,6 +86,9 @@ vec4 color_of_sample(Ray ray, uint i, out float clear) {
 #endif
         color.rgb = lit(color.rgb, gradient, point, view);
     }
+#endif
+#ifdef EFFECT
+    color = affected_sample(ray, steps_to(i), value, color, clear);
 #endif
     return color;
 }

@@ -39,6 +39,9 @@
 #ifdef ENVIRONMENT
 #include "shared/environment.glsl"
 #endif
+#ifdef EFFECT
+#include "shared/effect.glsl"
+#endif
 #ifdef SURFACE
 #include "shared/root.glsl"
 #include "shared/surface_color.glsl"

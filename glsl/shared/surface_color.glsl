@@ -1,6 +1,6 @@
 // Where a ray meets an iso-surface between two places, and what it looks like there [Thesis ch. 5 §3.2]. Twin: src/twin/lighting.rs.
 // Needs frame.glsl, samples.glsl, volume.glsl, surface.glsl and root.glsl; without SHOWS_POSITION gradient.glsl; without that and
-// SHOWS_NORMAL phong.glsl; with ENVIRONMENT environment.glsl.
+// SHOWS_NORMAL phong.glsl; with ENVIRONMENT environment.glsl; with EFFECT effect.glsl.
 
 // How the place of the surface is found between the two (`Refine` in src/scene/settings/surface.rs).
 const int NONE = 0;
@@ -69,6 +69,9 @@ vec4 color_where(Ray ray, Meeting met) {
     vec3 color = lit(unlit.rgb, gradient, point, view);
 #ifdef ENVIRONMENT
     color = reflecting(color, gradient, view);
+#endif
+#ifdef EFFECT
+    color = affected_surface(ray, met.steps, met.level, color);
 #endif
     return vec4(color * unlit.a, unlit.a);
 #endif

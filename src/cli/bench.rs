@@ -110,9 +110,10 @@ impl BenchCommand {
             orbit: self.orbit,
             most_fetches: self.gpu_cost,
         };
+        let effect = job.scenes.iter().any(|(_, settings)| settings.effects.file.is_some());
         let progress = Progress::new();
         let measured = job.run(&Host {
-            open: &|| self.device.open(),
+            open: &|| self.device.open_for(effect),
             close: &|checked| self.device.close(checked),
             say: &|what| progress.say(what),
         })?;

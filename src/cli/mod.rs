@@ -21,6 +21,7 @@ use clap::{Parser, Subcommand};
 use crate::error::{Result, shown};
 use crate::measure::write::write_standard_error;
 use crate::scene::{builtin, scenes};
+use crate::vulkan::{exit_at_once, gave_up};
 
 /// A raw Vulkan volume renderer and bench for depth-bounds culling
 ///
@@ -130,6 +131,9 @@ fn finish(result: Result<()>) -> ExitCode {
             // One line, whatever a driver or a file name holds.
             let line = error.to_string().replace(['\n', '\r'], " ");
             write_standard_error(&format!("error: {line}\n"));
+            if gave_up() {
+                exit_at_once(error.exit_code());
+            }
             ExitCode::from(error.exit_code())
         }
     }

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use crate::error::{Error, Result};
 use crate::frame::{self, self_check};
 use crate::measure::runner::Checked;
-use crate::vulkan::{Device, Instance, pick};
+use crate::vulkan::{Device, DeviceUse, Instance, pick};
 
 /// Which device, and how it is used.
 #[derive(Clone, Debug, Default, Args)]
@@ -42,17 +42,17 @@ enum EarlyEndArgument {
 }
 
 impl DeviceOptions {
-    /// Picks and opens the device.
+    /// Picks and opens the device; `robust`: see [`DeviceUse`].
     ///
     /// # Errors
     /// When there is no loader, layer or device that will do.
-    pub fn open_unchecked(&self) -> Result<Arc<Device>> {
+    pub fn open_unchecked(&self, robust: bool) -> Result<Arc<Device>> {
         if let Some(folder) = &self.glsl {
             crate::glsl::set_directory(folder.clone())?;
         }
         let instance = Instance::new(self.validate)?;
         let (info, _) = pick(&instance.devices()?, self.device.as_deref())?;
-        Device::new(&instance, &info, self.single_queue)
+        Device::open(&instance, &info, DeviceUse { single_queue: self.single_queue, robust })
     }
 
     /// Picks, opens and checks the device.
@@ -60,7 +60,15 @@ impl DeviceOptions {
     /// # Errors
     /// As [`DeviceOptions::open_unchecked`].
     pub fn open(&self) -> Result<Checked> {
-        let device = self.open_unchecked()?;
+        self.open_for(false)
+    }
+
+    /// The same for scenes with an effect, which may read what is not there.
+    ///
+    /// # Errors
+    /// As [`DeviceOptions::open`].
+    pub fn open_for(&self, effect: bool) -> Result<Checked> {
+        let device = self.open_unchecked(effect)?;
         let info = &device.info;
         let early_end = self.early_end.map(|way| match way {
             EarlyEndArgument::Conditional => frame::EarlyEnd::Conditional,

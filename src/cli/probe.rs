@@ -41,7 +41,7 @@ impl ProbeCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
         let other = self.compare.as_ref().map(|path| read(path)).transpose()?;
-        let opened = self.device.open_unchecked()?;
+        let opened = self.device.open_unchecked(false)?;
         let progress = Progress::new();
         let found = run(&opened, self.quick, &|what| progress.say(what));
         drop(progress);

@@ -30,6 +30,7 @@ use crate::scene::settings::MethodName;
   depthleap render scene.toml --method rc-block --json counts.json -o picture.exr
   depthleap render --from counts.json -o again.png
   depthleap render --from out/results.json#3 --viewport 1000x1000 -o large.png
+  depthleap render fuel.nrrd --method single-pass --effect tint.glsl -o tinted.png
   depthleap render head.raw --dims 256,256,128 --type u16 -o head.npy
   depthleap render fuel.nrrd -o fuel.png --json - | jq .fragments.main")]
 pub struct Render {
@@ -80,7 +81,7 @@ impl Render {
         picture.write(&self.output, settings.image.background)?;
         if let Some(file) = &self.json {
             let folder = file.parent().unwrap_or(Path::new(""));
-            write_json(file, &Run { settings: settings_in(folder, settings), ..run.clone() })?;
+            write_json(file, &Run { settings: settings_in(folder, run.settings.clone()), ..run.clone() })?;
         }
         output::say("note", &run.scene, &run.notes);
         output::warn(std::slice::from_ref(&run));
@@ -93,7 +94,7 @@ impl Render {
         let scene = read::scene(settings)?;
         let opened = match method::of(settings.method.name)?.on_device {
             false => None,
-            true => Some(self.device.open()?),
+            true => Some(self.device.open_for(scene.effect.is_some())?),
         };
         let effort = Effort { warmups: 1, repeats: self.repeats, reference: self.reference_error };
         let progress = Progress::new();

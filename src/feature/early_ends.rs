@@ -1,5 +1,6 @@
 //! Ends of rays before they leave the volume.
 
+use super::effect::EFFECT;
 use super::reasons::never_ends;
 use super::surface::ISO_SURFACE;
 use crate::part::rows::{Context, Feature, Hook, Why};
@@ -26,8 +27,8 @@ pub fn may_end(context: &Context) -> bool {
         || match context.projection().ends {
             // A surface is opaque.
             Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
-            // Polygons add to the opacity, each as much as it likes.
-            Ends::Opaque if context.blends => context.scene.settings.sampling.termination < 1.0,
+            // Polygons and effects add to the opacity as much as they like.
+            Ends::Opaque if context.blends || context.has(&EFFECT) => context.scene.settings.sampling.termination < 1.0,
             Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
             Ends::Reached => true,
             Ends::Never(_) => false,

@@ -22,6 +22,9 @@ fn needed(context: &Context) -> Result<(), Why> {
     let there = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE);
     match (context.scene.settings.shading.gradients, there && context.scene.reads_gradients()) {
         (Gradients::Precomputed, true) => Ok(()),
+        (Gradients::Precomputed, false) if context.scene.effect.is_some() => {
+            Err("effects on samples without lights take gradients in the shader".into())
+        }
         (Gradients::Precomputed, false) => Err("no gradient is read".into()),
         (Gradients::OnTheFly, true) => Err("gradients are taken in the shader".into()),
         (Gradients::OnTheFly, false) => Err(Why::Untold),

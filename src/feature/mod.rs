@@ -11,6 +11,7 @@ mod counting;
 mod decisions;
 mod distances;
 mod early_ends;
+pub mod effect;
 pub mod environment;
 mod extra_fetches;
 pub mod gradients;
@@ -34,6 +35,7 @@ pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
 pub use early_ends::{EARLY_ENDS, may_end};
+pub use effect::EFFECT;
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use start::START;
@@ -60,7 +62,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 36] = [
+pub const FEATURES: [&Feature; 37] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -97,6 +99,7 @@ pub const FEATURES: [&Feature; 36] = [
     &ENVIRONMENT,
     &SHADOWS,
     &TRANSLUCENCY,
+    &EFFECT,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

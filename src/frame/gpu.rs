@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use ash::vk;
 use cpu_time::{ProcessTime, ThreadTime};
@@ -22,7 +22,7 @@ use crate::plan::Plan;
 use crate::resource;
 use crate::scene::Scene;
 use crate::shared;
-use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope};
+use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope, Watch};
 
 /// How the rest of a frame is left out when no ray is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,10 +41,22 @@ pub struct GpuFrame {
     compiled: Compiled,
     size: [u32; 2],
     early_end: EarlyEnd,
+    /// Of an effect, which may never end.
+    watch: Option<Watch>,
     queries: FrameQueries,
     step_names: Arc<[String]>,
     /// Where RES was left by the last run.
     accumulated_layout: vk::ImageLayout,
+}
+
+/// How long a frame may take whose effect may never end.
+fn watch(scene: &Scene) -> Option<Watch> {
+    let (effect, limit) = (scene.effect.as_ref()?, scene.settings.effects.limit);
+    let remedy = format!(
+        "look for a loop without an end in the effect {}, or raise effects.limit (--effect-limit) where its frames take longer than {limit} s",
+        effect.name
+    );
+    Some(Watch { limit: Duration::from_secs_f64(limit), remedy })
 }
 
 /// Whether a step hangs on one that counted nothing, as far as that is known.
@@ -75,6 +87,7 @@ impl GpuFrame {
             device: device.clone(),
             size: plan.view.size,
             early_end,
+            watch: watch(scene),
             queries: FrameQueries::new(device, compiled.steps.len(), plan.passes, predicates)?,
             step_names: compiled.steps.iter().map(|s| s.step.name.clone()).collect(),
             accumulated_layout: vk::ImageLayout::UNDEFINED,
@@ -92,8 +105,15 @@ impl GpuFrame {
     /// Runs the frame once and waits for it.
     ///
     /// # Errors
-    /// What the driver reports; a lost device names the last step begun.
+    /// What the driver reports; a lost device, or a frame that takes longer than an effect may, names the last step begun.
     pub fn run(&mut self, measure: Measure) -> Result<FrameRun> {
+        self.device.watch(self.watch.clone());
+        let run = self.run_batches(measure);
+        self.device.watch(None);
+        run
+    }
+
+    fn run_batches(&mut self, measure: Measure) -> Result<FrameRun> {
         let (wall, cpu) = (Instant::now(), ProcessTime::now());
         self.device.set_step_names(self.step_names.clone());
         let mut run = FrameRun::default();

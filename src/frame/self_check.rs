@@ -159,7 +159,19 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
     let (field, polygons, unit) = (Arc::new(field), Arc::default(), TextureUnit::default());
     let (planes, lights) = (ClipPlanes::default(), Vec::new());
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface: None, lights, environment: None, unit })
+    Ok(Scene {
+        settings,
+        field,
+        transfer,
+        camera,
+        polygons,
+        planes,
+        surface: None,
+        lights,
+        environment: None,
+        effect: None,
+        unit,
+    })
 }
 
 struct FormRun {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::cache::{Cache, CacheKey};
 use super::compile::compile;
 use super::shader::Shader;
-use super::source::{Broken, Source, Text};
+use super::source::{Broken, Insert, Source, Text};
 use super::takes::Takes;
 use crate::error::{Error, Result};
 
@@ -30,7 +30,8 @@ impl Library {
     /// A file that is not there, with the one most like it; a define that the file does not take; a shader that does not
     /// compile, with the compiler's text.
     pub fn module(&self, shader: &Shader) -> Result<Arc<[u32]>> {
-        let text = self.text(shader.file)?;
+        let insert = shader.insert.as_deref();
+        let text = self.text(shader.file)?.with(insert);
         let defines: Vec<&str> = shader.defines.iter().copied().collect();
         Takes::of(&text).and_then(|takes| takes.check(&text, &defines)).map_err(broken)?;
         let key = CacheKey::of(&text, &defines);
@@ -39,7 +40,7 @@ impl Library {
         }
         let words: Arc<[u32]> = match self.cache.load(&key) {
             Some(words) => words.into(),
-            None => self.compiled(&text, &defines, &key)?.into(),
+            None => self.compiled(&text, &defines, &key).map_err(|broken| fault(broken, insert))?.into(),
         };
         self.made().insert(key, words.clone());
         Ok(words)
@@ -71,8 +72,8 @@ impl Library {
         self.source.text(file).map_err(broken)
     }
 
-    fn compiled(&self, text: &Text, defines: &[&str], key: &CacheKey) -> Result<Vec<u32>> {
-        let compiled = compile(text, defines).map_err(broken)?;
+    fn compiled(&self, text: &Text, defines: &[&str], key: &CacheKey) -> Result<Vec<u32>, Broken> {
+        let compiled = compile(text, defines)?;
         if compiled.warnings.is_empty() {
             self.cache.store(key, &compiled.words);
         } else {
@@ -95,6 +96,23 @@ fn unknown(file: &str, known: &[String]) -> Error {
     };
     Error::usage(format!("shader {file}"), "there is no such file", remedy)
 }
+
+/// A shader that does not compile as the program's error. Where it includes a text of the user's, that is at fault.
+fn fault(found: Broken, insert: Option<&Insert>) -> Error {
+    let Some(Insert { name, defines, .. }) = insert else { return broken(found) };
+    let problem = match found.text.contains(NO_BODY) {
+        true => format!("does not define `{defines}`"),
+        false => found.text,
+    };
+    Error::input(
+        name,
+        problem,
+        format!("fix the file, which has to define `{defines}`; glsl/shared/effect.glsl tells what it may use"),
+    )
+}
+
+/// What the compiler says of a function that is declared and called, and not defined.
+const NO_BODY: &str = "No function definition (body) found";
 
 /// A broken shader as the program's error.
 pub fn broken(broken: Broken) -> Error {

@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
+use std::sync::Arc;
+
+use super::source::Insert;
 
 /// A file of `glsl/` and the defines it is compiled with. Its name, which shows in plans, captures and messages, follows
 /// from both: `main_pass.frag:CULL_DISCARD+HOLES`.
@@ -11,11 +14,13 @@ pub struct Shader {
     pub file: &'static str,
     /// Those of the file's `//@takes` line ([`super::takes`]).
     pub defines: BTreeSet<&'static str>,
+    /// The user's own text that it includes, where it includes one.
+    pub insert: Option<Arc<Insert>>,
 }
 
 impl Shader {
     pub fn new(file: &'static str, defines: impl IntoIterator<Item = &'static str>) -> Self {
-        Self { file, defines: defines.into_iter().collect() }
+        Self { file, defines: defines.into_iter().collect(), insert: None }
     }
 }
 

@@ -19,6 +19,21 @@ pub enum Source {
     Folder(PathBuf),
 }
 
+/// A file of the user's that shaders include by the path [`Insert::PATH`], wherever it lies.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Insert {
+    /// The file as messages show it.
+    pub name: String,
+    pub text: String,
+    /// What the file has to define, for the message where it does not: `vec4 effect(Sample here)`.
+    pub defines: &'static str,
+}
+
+impl Insert {
+    /// The path of `#include` lines that stand for it.
+    pub const PATH: &str = "effect.glsl";
+}
+
 /// A shader that cannot be used: where, and what the compiler or the file system says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
@@ -42,6 +57,8 @@ pub struct Text {
     /// Path from the root and text of each file, the shader's own among them.
     pub parts: BTreeMap<String, Cow<'static, str>>,
     root: PathBuf,
+    /// What messages call the user's own text among the parts, where there is one.
+    insert: Option<String>,
 }
 
 impl Source {
@@ -104,14 +121,26 @@ impl Source {
             }
             parts.insert(path, text);
         }
-        Ok(Text { file: file.to_owned(), parts, root: self.root().to_owned() })
+        Ok(Text { file: file.to_owned(), parts, root: self.root().to_owned(), insert: None })
     }
 }
 
 impl Text {
-    /// A file of the same root as messages show it.
+    /// The same with the user's own text among its parts.
+    pub fn with(mut self, insert: Option<&Insert>) -> Self {
+        if let Some(insert) = insert {
+            self.parts.insert(Insert::PATH.to_owned(), insert.text.clone().into());
+            self.insert = Some(insert.name.clone());
+        }
+        self
+    }
+
+    /// A file of the same root, or the user's own, as messages show it.
     pub fn shown(&self, file: &str) -> String {
-        self.root.join(file).display().to_string()
+        match &self.insert {
+            Some(name) if file == Insert::PATH => name.clone(),
+            _ => self.root.join(file).display().to_string(),
+        }
     }
 
     /// The text of a file that is named as messages show it.

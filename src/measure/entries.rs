@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::frame::LayerCounts;
 use crate::plan::Plan;
+use crate::scene::Effect;
+use crate::scene::effect;
 use crate::scene::texture::TextureChoice;
 
 /// Fragments or invocations of a frame.
@@ -139,6 +141,26 @@ impl TextureRecord {
             measured: texture.measured,
         };
         plan.texture.map(of)
+    }
+}
+
+/// The user's effect that samples and surfaces went through.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct EffectRecord {
+    /// The file, without its folder.
+    pub file: String,
+    /// SHA-256 of its text, in hexadecimal digits.
+    pub hash: String,
+}
+
+impl EffectRecord {
+    pub fn of(effect: &Effect) -> Self {
+        Self { file: effect.file().to_owned(), hash: effect.hash.clone() }
+    }
+
+    /// `tint.glsl (SHA-256 0123456789ab)`.
+    pub fn words(&self) -> String {
+        effect::words(&self.file, &self.hash)
     }
 }
 

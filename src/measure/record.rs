@@ -34,7 +34,7 @@
 //! | `bytes` | integer, bytes | size of the structures |
 //! | `memory` | map text to integer, bytes | size of every resource of the frame by its name |
 //! | `ideal` | {`main`} or null | main fragments no skipping can go below: those whose segment holds a contributing sample |
-//! | `error` | error or null | how far the picture is from the reference; null where none was made |
+//! | `error` | error or null | how far the picture is from the reference; null where none was made, or none can be (`effect`) |
 //! | `device`, `driver` | text | the device and its driver, with versions |
 //! | `self_check` | map text to text | each form of the bounds test: `right`, what is wrong with it, or `not available` |
 //! | `left_out` | array of {`what`, `why`} | what the scene did not need |
@@ -43,6 +43,7 @@
 //! | `warnings` | array of text | what may make the picture mislead: empty, imprecise, reoriented |
 //! | `texture` | texture or null | how the volume was kept on the device: see [`TextureRecord`]; null for `cpu` and where no ray meets the volume |
 //! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
+//! | `effect` | {`file`, `hash`} or null | the user's effect that samples and surfaces went through: see [`EffectRecord`]; with one `error` is null |
 //! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; its `fragments` is null for methods `single-pass...`, whose fragments are rays; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
@@ -59,8 +60,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 pub use super::entries::{
-    Clock, CountsRecord, DifferenceRecord, ErrorRecord, Ideal, LayerRecord, LeftOutRecord, OrbitFrame, PassTimes,
-    PictureRecord, Saved, TextureRecord,
+    Clock, CountsRecord, DifferenceRecord, EffectRecord, ErrorRecord, Ideal, LayerRecord, LeftOutRecord, OrbitFrame,
+    PassTimes, PictureRecord, Saved, TextureRecord,
 };
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
@@ -112,6 +113,9 @@ pub struct Run {
     /// Frames of a camera that goes around the volume.
     #[serde(default)]
     pub orbit: Option<Vec<OrbitFrame>>,
+    /// The user's effect.
+    #[serde(default)]
+    pub effect: Option<EffectRecord>,
     /// Against `rc-ert`.
     #[serde(default)]
     pub saved: Option<Saved>,

@@ -10,7 +10,7 @@ use super::law::law_of_skipping;
 use super::limits;
 use super::measured::Measured;
 use super::picture::Picture;
-use super::record::{CountsRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
+use super::record::{CountsRecord, EffectRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
 use super::warnings::warnings;
@@ -24,9 +24,9 @@ use crate::part::form::Form;
 use crate::part::rows::{Method, Traversal};
 use crate::plan::{self, Plan};
 use crate::resource;
-use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodSettings, Settings};
 use crate::scene::texture::TextureChoice;
+use crate::scene::{Effect, Scene};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -192,7 +192,8 @@ impl<'a> Runner<'a> {
     fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {
         let size = entry.scene.settings.image.size;
         let (mut error, mut ideal, mut reference) = (None, None, None);
-        if effort.reference && entry.plan.passes > 0 {
+        // The twin has no GLSL.
+        if effort.reference && entry.plan.passes > 0 && entry.scene.effect.is_none() {
             let frame = self.reference(&entry.scene, entry.plan.passes)?;
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
@@ -240,6 +241,7 @@ impl<'a> Runner<'a> {
             warnings: warnings(&entry.scene, &entry.plan, &entry.picture),
             texture: TextureRecord::of(&entry.plan),
             orbit: None,
+            effect: entry.scene.effect.as_deref().map(EffectRecord::of),
             saved: None,
             settings: entry.scene.settings.clone(),
         };
@@ -269,6 +271,8 @@ impl<'a> Runner<'a> {
                 notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
             }
         }
+        let robust = self.checked.is_some_and(|checked| checked.device.used.robust);
+        notes.extend(entry.scene.effect.as_deref().map(|effect| with_effect(effect, robust)));
         notes.extend(parts_between_layers(&entry.counts));
         notes.extend(counted(entry.plan.method).map(str::to_owned));
         if entry.plan.method.skips_blocks() {
@@ -300,6 +304,16 @@ impl<'a> Runner<'a> {
         shared.chain(own).for_each(|(r, bytes)| *memory.entry(r.name().to_owned()).or_default() += bytes);
         memory
     }
+}
+
+/// What a reader of the numbers should know of an effect; `robust`: whether what shaders read is held within what is there.
+fn with_effect(effect: &Effect, robust: bool) -> String {
+    let access = if robust { "; the device checks what shaders read (robust access), which may take time" } else { "" };
+    format!(
+        "samples that show, or surfaces, go through the effect {}: its GLSL does not run in f64, so that there is no error against \
+         the reference{access}",
+        effect.words()
+    )
 }
 
 /// What counts of fragments are, where they are not those of passes.

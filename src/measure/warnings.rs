@@ -23,6 +23,7 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
     warnings.extend(layers_left(scene, plan));
     warnings.extend(uncovered(scene, plan));
     warnings.extend(background_left(scene, plan));
+    warnings.extend(no_numbers(scene, picture));
     warnings.extend(clipped(scene, picture));
     warnings
 }
@@ -78,6 +79,16 @@ fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
     })
 }
 
+/// That an effect has left pixels that are no numbers.
+fn no_numbers(scene: &Scene, picture: &Picture) -> Option<String> {
+    let effect = scene.effect.as_ref()?;
+    let pixels = picture.pixels.iter().filter(|pixel| !pixel.iter().all(|channel| channel.is_finite())).count();
+    (pixels > 0).then(|| {
+        let pixels = if pixels == 1 { "1 pixel is".to_owned() } else { format!("{pixels} pixels are") };
+        format!("{pixels} not a number, or infinite: look for a division by 0 in the effect {}", effect.file())
+    })
+}
+
 /// What is less than half a step of a byte beyond a PNG's least and greatest colour is lost in none.
 const UNSEEN: f32 = 0.5 / 255.0;
 
@@ -87,6 +98,7 @@ fn clipped(scene: &Scene, picture: &Picture) -> Option<String> {
     let [least, greatest] = [colors().fold(0.0, f32::min), colors().fold(1.0, f32::max)];
     (least < -UNSEEN || greatest > 1.0 + UNSEEN).then(|| {
         let advice = match (&scene.surface, scene.lights.is_empty()) {
+            _ if scene.effect.is_some() => ", or change the effect",
             (Some(_), _) if scene.settings.surface.shows != Shows::Color => "",
             (Some(_), _) if scene.environment.is_some() => ", or give weaker lights or a smaller --reflectivity",
             (_, false) => ", or give weaker lights",

@@ -1,5 +1,6 @@
 //! What rows of methods have in common, and the orders of passes that several share.
 
+use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
 use crate::feature::{light_paths, surface};
@@ -11,6 +12,7 @@ use crate::part::steps::Steps;
 use crate::pass::{
     alive, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel, start,
 };
+use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark};
 
 /// Steps before the first main pass, and room for the uploads and builds that a plan puts in front of them: some thirty at
@@ -26,12 +28,12 @@ pub const EARLY_Z: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Fra
 /// The papers' form of near-neighbor skipping [Thesis §5.3].
 pub const BOUNDS: Option<Form> = Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth });
 
-/// A ray caster on a device that takes every scene whose surfaces are opaque, ends rays and knows nothing of what lies ahead.
+/// A ray caster on a device that takes every scene that asks for nothing that one loop alone can do, ends rays and knows nothing of what lies ahead.
 pub const RAY_CASTER: Method = Method {
     name: "",
     about: "",
     source: "",
-    takes: |scene| surface::check_opaque(scene).and(light_paths::check_passes(scene)),
+    takes: takes_in_passes,
     papers: EARLY_Z,
     forms: every_form,
     ends_rays: true,
@@ -42,6 +44,23 @@ pub const RAY_CASTER: Method = Method {
     skips_of: None,
     steps: |context, steps| cast(context, steps, unswitched),
 };
+
+/// Takes every scene but those that ask for what one loop alone can do.
+fn takes_in_passes(scene: &Scene) -> Result<()> {
+    surface::check_opaque(scene)?;
+    light_paths::check_passes(scene)?;
+    without_effect(scene)
+}
+
+/// Takes every scene but those with an effect, whose GLSL is a part of one loop.
+fn without_effect(scene: &Scene) -> Result<()> {
+    let Some(effect) = &scene.effect else { return Ok(()) };
+    Err(Error::usage(
+        format!("--method {}", scene.settings.method.name),
+        format!("takes no effect, and {} is given", effect.file()),
+        "use --method single-pass, or another single-pass method, or leave the effect out (--effect)",
+    ))
+}
 
 /// Every way to cull with every way to mark.
 pub fn every_form() -> Vec<Form> {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::glsl::Shader;
+use crate::glsl::{Insert, Shader};
 use crate::math::blend::Blend;
 use crate::shared::Slice;
 use crate::twin::TwinPass;
@@ -251,6 +251,13 @@ impl Draw {
     pub fn define(&mut self, defines: impl IntoIterator<Item = &'static str>) {
         if let Some(shader) = &mut self.shader {
             Arc::make_mut(shader).defines.extend(defines);
+        }
+    }
+
+    /// Gives the shader a text of the user's that it includes.
+    pub fn insert(&mut self, insert: Option<Arc<Insert>>) {
+        if let Some(shader) = &mut self.shader {
+            Arc::make_mut(shader).insert = insert;
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::constants;
-use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, lights, surface};
+use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, effect, lights, surface};
 use crate::geometry::BOX_FRONT;
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
@@ -23,6 +23,7 @@ pub fn single_pass(context: &Context) -> Step {
     accesses.push(drawn.of(resource::ACCUMULATED));
     let mut draw = Draw::plain(&BOX_FRONT, "single_pass.frag", twin::single_pass::single_pass);
     draw.define(of_loop.defines);
+    draw.insert(effect::insert(context));
     draw.specialize(of_loop.constants);
     Step::drawn("single_pass".to_owned(), Group::Main, 0, accesses, draw)
 }
@@ -38,7 +39,8 @@ pub fn single_pass_compute(context: &Context) -> Step {
         Accumulate::Rgba16f => "RGBA16F",
         Accumulate::Rgba8 => "RGBA8",
     };
-    let shader = Shader::new("single_pass.comp", of_loop.defines.into_iter().chain([format]));
+    let insert = effect::insert(context);
+    let shader = Shader { insert, ..Shader::new("single_pass.comp", of_loop.defines.into_iter().chain([format])) };
     let work = Work::Pixels(PixelDispatch {
         shader: Arc::new(shader),
         constants: Arc::new(of_loop.constants),

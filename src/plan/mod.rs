@@ -158,6 +158,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::lights::check(scene)?;
     feature::light_paths::check(scene)?;
     feature::environment::check(scene)?;
+    feature::effect::check(scene)?;
     feature::gradients::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view, method);

@@ -24,6 +24,10 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if let Some(values) = &projection::of(&scene.settings).values {
         return value_error(scene, values, error, samples, passes);
     }
+    if scene.effect.is_some() {
+        // Nobody knows what it makes of a difference.
+        return if error == 0.0 { 0.0 } else { f64::INFINITY };
+    }
     if scene.surface.is_some() || !scene.lights.is_empty() {
         // A ray that misses a surface by a little has none of its colour, and where values hardly change a gradient may point
         // anywhere.

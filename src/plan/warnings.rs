@@ -16,6 +16,7 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
     warnings.extend(scene.polygons.warnings.clone());
     warnings.extend(scene.environment.iter().flat_map(|environment| environment.warnings.clone()));
+    warnings.extend(scene.effect.iter().flat_map(|effect| effect.warnings.clone()));
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|_| imprecise(scene, &TextureChoice::of(scene))));

@@ -5,6 +5,7 @@
 //!
 //! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
+mod effect;
 mod environment;
 mod exr_header;
 mod keys;
@@ -23,6 +24,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+pub use effect::effect;
 pub use environment::environment;
 pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};

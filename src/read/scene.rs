@@ -114,6 +114,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
+    let effect = super::effect(&settings.effects)?.map(Arc::new);
     let volume = volume(settings)?;
     let camera = camera.in_axes_of(volume.turn);
     let polygons = Arc::new(polygons(settings, volume.turn)?);
@@ -125,9 +126,10 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
     let surface = Surface::of(settings, &field, &transfer);
     let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
-    let (settings, field) = (settings.clone(), Arc::new(field));
+    let (mut settings, field) = (settings.clone(), Arc::new(field));
+    settings.effects.hash = effect.as_ref().map(|effect| effect.hash.clone());
     let unit = TextureUnit::default();
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, environment, unit })
+    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, environment, effect, unit })
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.

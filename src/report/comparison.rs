@@ -43,6 +43,7 @@ pub fn comparable(a: &Run, b: &Run) -> bool {
         && (&s.meshes, &s.clips, s.layers.most) == (&t.meshes, &t.clips, t.layers.most)
         && (&s.surface, &s.lights, &s.shading) == (&t.surface, &t.lights, &t.shading)
         && s.environment == t.environment
+        && a.effect == b.effect
 }
 
 /// The method with the switches that change its counts.
@@ -84,6 +85,9 @@ impl<'a> RunGroup<'a> {
         );
         if sampling.extra_fetches > 0 {
             let _ = write!(text, ", {} extra fetches a sample", sampling.extra_fetches);
+        }
+        if let Some(effect) = &run.effect {
+            let _ = write!(text, ", effect {}", effect.words());
         }
         if !run.view.is_empty() {
             text = format!("{}; {text}", run.view);

@@ -2,6 +2,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod effect;
 mod effects;
 pub mod environment;
 pub mod field;
@@ -31,6 +32,7 @@ mod volume_choice;
 use std::sync::Arc;
 
 pub use camera::Camera;
+pub use effect::Effect;
 pub use environment::Environment;
 pub use field::Field;
 pub use light::Light;
@@ -60,6 +62,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// What the iso-surfaces reflect.
     pub environment: Option<Arc<Environment>>,
+    /// What the user's own GLSL makes of samples and surfaces.
+    pub effect: Option<Arc<Effect>>,
     /// What is known of the texture unit that interpolates, where the scene asks for one.
     pub unit: TextureUnit,
 }

@@ -9,10 +9,12 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, Allocat
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings};
 
 use super::failure::{failed, lost};
+use super::features::{DeviceUse, wanted_features};
 use super::info::DeviceInfo;
 use super::instance::Instance;
 use super::marks::Marks;
 use super::queue::Queue;
+use super::watch::{Watch, Watched};
 use crate::error::{Error, Result};
 
 /// Blocks of memory start at this size and double, so that a small frame does not claim the usual 256 MiB.
@@ -22,6 +24,7 @@ const LARGEST_BLOCK: u64 = 256 << 20;
 /// A device with the features that exist of those this program can use.
 pub struct Device {
     pub info: DeviceInfo,
+    pub used: DeviceUse,
     pub raw: ash::Device,
     pub graphics: Queue,
     pub compute: Queue,
@@ -32,6 +35,7 @@ pub struct Device {
     pub(super) debug: Option<ext::debug_utils::Device>,
     pub(super) cache: vk::PipelineCache,
     pub(super) marks: ManuallyDrop<Marks>,
+    pub(super) watched: Watched,
     /// Names since a trace was begun; none where nobody asked for one.
     trace: Mutex<Option<Vec<String>>>,
     allocator: ManuallyDrop<Mutex<Allocator>>,
@@ -39,11 +43,20 @@ pub struct Device {
 }
 
 impl Device {
-    /// Opens the device. `single_queue` lets compute work share the graphics queue even where another exists.
+    /// Opens the device. `single_queue`: see [`DeviceUse`].
+    ///
+    /// # Errors
+    /// As [`Device::open`].
+    pub fn new(instance: &Arc<Instance>, info: &DeviceInfo, single_queue: bool) -> Result<Arc<Self>> {
+        Self::open(instance, info, DeviceUse { single_queue, robust: false })
+    }
+
+    /// Opens the device.
     ///
     /// # Errors
     /// A device that cannot be used (with the reason), or a failing driver.
-    pub fn new(instance: &Arc<Instance>, info: &DeviceInfo, single_queue: bool) -> Result<Arc<Self>> {
+    pub fn open(instance: &Arc<Instance>, info: &DeviceInfo, used: DeviceUse) -> Result<Arc<Self>> {
+        let DeviceUse { single_queue, robust } = used;
         let raw_instance = &instance.raw;
         if let Some(reason) = &info.unusable {
             return Err(Error::device(&info.name, reason, "choose another device"));
@@ -70,9 +83,10 @@ impl Device {
                     .queue_priorities(&priorities[..1]),
             );
         }
-        let features = wanted_features(raw_instance, info);
+        let features = wanted_features(raw_instance, info, robust);
         let mut v12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
-        let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);
+        // Every device that speaks Vulkan 1.3 has it.
+        let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true).robust_image_access(robust);
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
         let mut features2 =
             vk::PhysicalDeviceFeatures2::default().features(features).push_next(&mut v12).push_next(&mut v13);
@@ -105,6 +119,7 @@ impl Device {
         let limits = properties.properties.limits;
         let device = Arc::new(Self {
             info: info.clone(),
+            used,
             graphics,
             compute,
             limits,
@@ -116,6 +131,7 @@ impl Device {
             debug: instance.debug_utils().then(|| ext::debug_utils::Device::new(raw_instance, &raw)),
             cache,
             marks: ManuallyDrop::new(marks),
+            watched: Watched::default(),
             trace: Mutex::new(None),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             instance: instance.clone(),
@@ -177,6 +193,12 @@ impl Device {
         self.marks.set_names(names);
     }
 
+    /// From now on work that takes longer than the watch has it is given up, and a lost device comes with what is suspected; without
+    /// one the host waits for as long as it takes.
+    pub fn watch(&self, watch: Option<Watch>) {
+        self.watched.set(watch);
+    }
+
     /// The length of `ticks`, in milliseconds.
     pub fn ticks_to_ms(&self, ticks: u64) -> f64 {
         ticks as f64 * f64::from(self.info.timestamp_period) * 1e-6
@@ -215,7 +237,7 @@ impl Device {
     /// The result of `call` on the object of that name.
     pub(super) fn check<T>(&self, call: &str, object: &str, result: Result<T, vk::Result>) -> Result<T> {
         result.map_err(|code| match code {
-            vk::Result::ERROR_DEVICE_LOST => lost(call, object, &self.marks.last_step()),
+            vk::Result::ERROR_DEVICE_LOST => self.watched.suspected(lost(call, object, &self.marks.last_step())),
             code => failed(call, object, code),
         })
     }
@@ -338,27 +360,6 @@ impl Parts {
                 Err(error)
             }
         }
-    }
-}
-
-/// Those that exist of the features this program can use.
-fn wanted_features(instance: &ash::Instance, info: &DeviceInfo) -> vk::PhysicalDeviceFeatures {
-    // SAFETY: the physical device belongs to this instance.
-    let has = unsafe { instance.get_physical_device_features(info.physical) };
-    vk::PhysicalDeviceFeatures {
-        depth_bounds: has.depth_bounds,
-        occlusion_query_precise: has.occlusion_query_precise,
-        pipeline_statistics_query: has.pipeline_statistics_query,
-        // Attachments that blend beside attachments that are replaced.
-        independent_blend: has.independent_blend,
-        // Shaders that count their own invocations.
-        fragment_stores_and_atomics: has.fragment_stores_and_atomics,
-        // One- and two-byte storage images.
-        shader_storage_image_extended_formats: has.shader_storage_image_extended_formats,
-        shader_storage_image_write_without_format: has.shader_storage_image_write_without_format,
-        shader_sampled_image_array_dynamic_indexing: has.shader_sampled_image_array_dynamic_indexing,
-        shader_clip_distance: has.shader_clip_distance,
-        ..Default::default()
     }
 }
 

@@ -12,6 +12,7 @@ mod descriptor;
 mod device;
 mod diagnosis;
 mod failure;
+mod features;
 mod format;
 mod image;
 mod info;
@@ -34,6 +35,7 @@ mod submit;
 mod suppressed;
 mod transfer;
 mod version;
+mod watch;
 
 pub use ash::vk;
 
@@ -42,6 +44,7 @@ pub use buffer::{Buffer, BufferInfo, Place};
 pub use commands::Commands;
 pub use descriptor::{Bound, DescriptorSet};
 pub use device::Device;
+pub use features::DeviceUse;
 pub use format::{aspect, has_stencil, texel_bytes};
 pub use image::{Image, ImageInfo, Sampler};
 pub use info::{DeviceInfo, DeviceKind, QueueFamily};
@@ -58,3 +61,4 @@ pub use shader::ShaderModule;
 pub use submission::Submission;
 pub use suppressed::SUPPRESSED;
 pub use transfer::CopyRegion;
+pub use watch::{Watch, exit_at_once, gave_up};

@@ -16,7 +16,7 @@ pub struct Recorded {
     raw: vk::CommandBuffer,
     family: u32,
     last: Mutex<Option<Submission>>,
-    _kept: Vec<Kept>,
+    kept: Vec<Kept>,
 }
 
 impl Recorded {
@@ -28,7 +28,7 @@ impl Recorded {
         family: u32,
         kept: impl IntoIterator<Item = Kept>,
     ) -> Self {
-        Self { name, device, raw, family, last: Mutex::default(), _kept: kept.into_iter().collect() }
+        Self { name, device, raw, family, last: Mutex::default(), kept: kept.into_iter().collect() }
     }
 
     pub fn name(&self) -> &str {
@@ -62,5 +62,10 @@ impl Drop for Recorded {
     fn drop(&mut self) {
         // What it uses may be freed when its last submission has ended; a lost device runs nothing any more.
         let _ = self.wait();
+        if self.device.watched.has_given_up() {
+            // It may run on, and with it the device.
+            std::mem::forget(std::mem::take(&mut self.kept));
+            std::mem::forget(self.device.clone());
+        }
     }
 }

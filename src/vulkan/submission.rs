@@ -18,16 +18,23 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Waits on the host until it is reached.
+    /// Waits on the host until it is reached, but not longer than the device's watch has it.
     ///
     /// # Errors
-    /// A lost device, with the last step begun.
+    /// A lost device, or work that was given up, with the last step begun.
     pub fn wait(&self) -> Result<()> {
+        let watched = &self.device.watched;
+        let given_up = || watched.give_up(&self.name, &self.device.marks.last_step());
+        if watched.has_given_up() {
+            return Err(given_up());
+        }
         let (semaphores, values) = ([self.timeline], [self.value]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
         // SAFETY: the semaphore is alive and a timeline.
-        let waited = unsafe { self.device.raw.wait_semaphores(&info, u64::MAX) };
-        self.device.check("vkWaitSemaphores", &self.name, waited)
+        match unsafe { self.device.raw.wait_semaphores(&info, watched.nanoseconds()) } {
+            Err(vk::Result::TIMEOUT) => Err(given_up()),
+            waited => self.device.check("vkWaitSemaphores", &self.name, waited),
+        }
     }
 
     /// Whether it is reached.

@@ -1,6 +1,7 @@
 //! The command line where no device is needed: no test here finds a driver, so that what passes is decided before one is
 //! looked for.
 
+mod effects;
 mod input;
 mod options;
 mod output;

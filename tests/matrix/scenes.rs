@@ -18,7 +18,7 @@ use depthleap::scene::settings::{
     LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows,
     SurfaceLevel, Translucency, VolumeTexture,
 };
-use depthleap::scene::{Camera, Environment, Scene};
+use depthleap::scene::{Camera, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
 
 type Change = fn(&mut Settings);
@@ -315,7 +315,7 @@ pub fn scenes() -> Vec<(String, Scene)> {
         (row.name, settings)
     });
     let scene = |(name, settings): (&str, Settings)| (name.to_owned(), read::scene(&settings).expect("a sound scene"));
-    kinds.chain(projections).map(scene).chain([mirror_ball()]).collect()
+    kinds.chain(projections).map(scene).chain([mirror_ball()]).chain(effects()).collect()
 }
 
 /// An iso-surface that reflects the picture of a mirror ball, unlike on each of its sides, in axes that are those of no volume.
@@ -334,6 +334,24 @@ fn mirror_ball() -> (String, Scene) {
         warnings: Vec::new(),
     }));
     ("an iso-surface that reflects a mirror ball, in turned axes".to_owned(), scene)
+}
+
+/// Scenes with an effect that changes nothing, whose twins are those without.
+fn effects() -> [(String, Scene); 3] {
+    let effect = Effect::new("same.glsl", "vec4 effect(Sample here) { return here.color; }").expect("a sound effect");
+    let with = |name: &str, change: Change| {
+        let mut scene = read::scene(&settings(change)).expect("a sound scene");
+        scene.effect = Some(Arc::new(effect.clone()));
+        (name.to_owned(), scene)
+    };
+    [
+        with("an effect on samples", |_| {}),
+        with("an effect on samples in light, by gradients in a texture, with a mesh", |s| {
+            (s.lights, s.meshes) = (two_lights(), vec![cuboid(0.5, 0.4)]);
+            s.shading = gradients(GradientOperator::Central, GradientTexture::Rgba32f);
+        }),
+        with("an effect on an iso-surface", |s| s.surface.iso = Some(90.0)),
+    ]
 }
 
 /// The scene as its camera sees it, and from within.

@@ -76,7 +76,7 @@ mod json {
         let value: serde_json::Value = serde_json::from_str(&results().runs[1].to_json().unwrap()).unwrap();
         let expected = "version scene view method cull mark passes fragments invocations gpu_ms gpu_ms_per_pass \
                         frame_ms frame_ms_stats cpu_ms cpu_ms_stats record_ms record_ms_stats build_ms \
-                        build_ms_stats bytes memory ideal error device driver self_check left_out plan notes orbit saved \
+                        build_ms_stats bytes memory ideal error device driver self_check left_out plan notes orbit effect saved \
                         settings texture warnings";
         let mut expected: Vec<&str> = expected.split_whitespace().collect();
         expected.sort_unstable();

@@ -60,6 +60,7 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         texture: None,
         warnings: Vec::new(),
         orbit: None,
+        effect: None,
         saved: None,
         settings: Settings::default(),
     }

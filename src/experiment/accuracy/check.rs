@@ -44,6 +44,10 @@ pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
             "give opacity = 1 and leave out surface.volume, or use render and bench",
         ));
     }
+    if let Some(effect) = &scene.effect {
+        let problem = format!("is {}, of whose colours no exact integral is known", effect.file());
+        return Err(Error::usage("effects.file (--effect)", problem, "leave it out"));
+    }
     if scene.surface.is_none() && !scene.lights.is_empty() {
         let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
         return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));

@@ -1,4 +1,6 @@
-//! `[effects]`: what single-pass methods do besides [Stegmaier05 §6].
+//! `[effects]`: what single-pass methods do besides [Stegmaier05 §6], and GLSL of the user's that samples and surfaces go through.
+
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +13,11 @@ const BIASES: Limits = Limits::from_to(0.0, 100.0, "voxels {}");
 /// The most that a volume unit takes of light: what is left of it behind a voxel of the finest volume is no number of f32.
 const MOST_ABSORPTION: f64 = 1e6;
 
+/// Seconds that a frame with an effect may take, from a hundredth to a day.
+const SECONDS: Limits = Limits::from_to(0.01, 86400.0, "a number of seconds {}");
+
 section! {
-    /// What single-pass methods do besides.
+    /// What the methods `single-pass...` do besides.
     #[serde(expecting = "the section [effects]")]
     #[command(next_help_heading = "Effects")]
     EffectsSettings, EffectsOptions, "effects";
@@ -30,10 +35,30 @@ section! {
     #[arg(skip)]
     translucency?: Translucency, by sound;
 
+    /// A file that defines `vec4 effect(Sample here)`, relative to the scene file
+    #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]
+    #[arg(skip)]
+    file?: PathBuf;
+
+    /// SHA-256 of the file's text when a run was made, in hexadecimal digits; another text comes with a warning
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(skip)]
+    hash?: String;
+
+    /// Seconds that a frame with an effect may take before it is given up as one that never ends
+    #[arg(long = "effect-limit", value_name = "SECONDS", allow_negative_numbers = true)]
+    limit: f64 = 120.0, within SECONDS;
+
     options {
         /// Let light through iso-surfaces, which take so much of it in a volume unit
         #[arg(long = "translucency", value_name = "ABSORPTION", allow_negative_numbers = true)]
         pub absorption: Option<f64>,
+
+        /// GLSL of your own, by single-pass methods: a file that defines `vec4 effect(Sample here)`, which is asked for the
+        /// colour and opacity of each sample that shows, or the colour of each iso-surface that is met; what it is told
+        /// stands in glsl/shared/effect.glsl
+        #[arg(long, value_name = "FILE")]
+        pub effect: Option<PathBuf>,
     }
 }
 
@@ -41,6 +66,9 @@ impl EffectsOptions {
     fn apply_others(&self, settings: &mut EffectsSettings) {
         if let Some(absorption) = self.absorption {
             settings.translucency = Some(Translucency { absorption, ..settings.translucency.unwrap_or_default() });
+        }
+        if let Some(file) = &self.effect {
+            (settings.file, settings.hash) = (Some(file.clone()), None);
         }
     }
 }

@@ -140,8 +140,9 @@ impl Settings {
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
         let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
-        [&mut self.volume.path, &mut self.volume.mesh, &mut self.transfer.file, &mut self.environment.image]
-            .into_iter()
+        let own = [&mut self.volume.path, &mut self.volume.mesh, &mut self.transfer.file];
+        own.into_iter()
+            .chain([&mut self.environment.image, &mut self.effects.file])
             .chain(meshes)
             .chain(clips)
             .flatten()

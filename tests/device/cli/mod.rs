@@ -1,6 +1,7 @@
 //! The command line on a device: pictures, counts, benches, and what a device refuses.
 
 mod accuracy;
+mod effects;
 #[path = "../../cli/program.rs"]
 pub mod program;
 mod shaders;
@@ -43,6 +44,7 @@ pub fn tests() -> Vec<Test> {
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
     let any_driver = accuracy::tests().into_iter().chain(shaders::tests());
+    tests.extend(effects::tests());
     tests.extend(any_driver.map(|test| test.needs(Need::AnyDriver)));
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
@@ -195,7 +197,7 @@ fn info_writes_json(device: &Arc<Device>) {
 }
 
 /// The keys of every run: those of DESIGN.md and what was added to them.
-const KEYS: &str = "build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver error fragments frame_ms \
+const KEYS: &str = "build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver effect error fragments frame_ms \
                     frame_ms_stats gpu_ms gpu_ms_per_pass ideal invocations left_out mark memory method notes orbit passes plan \
                     record_ms record_ms_stats saved scene self_check settings texture version view warnings";
 

@@ -3,6 +3,7 @@
 
 mod clips;
 mod compare;
+mod effects;
 mod features;
 #[path = "../../plan/lacking.rs"]
 mod lacking;
@@ -36,6 +37,7 @@ pub fn tests() -> Vec<Test> {
         textures::tests(),
         projections::tests(),
         single_pass::tests(),
+        effects::tests(),
     ]
     .into_iter()
     .flatten()
