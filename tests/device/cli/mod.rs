@@ -3,6 +3,7 @@
 mod accuracy;
 #[path = "../../cli/program.rs"]
 pub mod program;
+mod reproduce;
 mod shaders;
 mod stability;
 
@@ -42,7 +43,7 @@ pub fn tests() -> Vec<Test> {
         test("report makes all pages again", pages_come_again).needs(Need::AnyDriver),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
-    let any_driver = accuracy::tests().into_iter().chain(shaders::tests());
+    let any_driver = accuracy::tests().into_iter().chain(shaders::tests()).chain(reproduce::tests());
     tests.extend(any_driver.map(|test| test.needs(Need::AnyDriver)));
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
