@@ -16,8 +16,11 @@ use crate::scene::settings::Settings;
 /// What is chosen in the variants.
 const CHOICE: &str = "transfer function";
 
-/// The transfer functions of early ray termination, by what they show; the paper's is the first.
-const TRANSFERS: [(&str, fn(&mut Settings)); 3] = [
+/// A transfer function, by what it shows.
+type TransferChoice = (&'static str, fn(&mut Settings));
+
+/// The transfer functions of early ray termination; the one that is like the paper's is the first.
+const TRANSFERS: [TransferChoice; 3] = [
     ("semi-transparent, as in the figure", |s| {
         s.transfer.preset = None;
         s.transfer.points = Some(SEMI_TRANSPARENT.to_vec());
