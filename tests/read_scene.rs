@@ -1,10 +1,11 @@
 //! Scene files, transfer function files and settings in JSON: read, resolved, checked, and refused by name.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use depthleap::method;
+use depthleap::method::{self, SINGLE_PASS};
 use depthleap::read;
-use depthleap::scene::settings::TransferSettings;
+use depthleap::scene::settings::{Refine, TransferSettings};
 use depthleap::scene::transfer::TransferFunction;
 use depthleap::scene::{Settings, scenes};
 use tempfile::TempDir;
@@ -226,6 +227,29 @@ fn wrong_transfer_function_files_are_refused() {
 fn one_source_of_the_transfer_function_is_allowed() {
     let both = TransferSettings { preset: Some("ramp".into()), points: Some(vec![[0.0; 5]]), ..Default::default() };
     assert!(read::transfer(&both, Path::new("")).unwrap_err().to_string().contains("more than one"));
+}
+
+#[test]
+fn figures_of_papers_name_their_volume_and_say_what_cannot_be_drawn() {
+    let names: BTreeSet<&str> = scenes::STEGMAIER.iter().map(|row| row.name).collect();
+    assert_eq!(names.len(), scenes::STEGMAIER.len(), "each has a picture of its own");
+    for row in &scenes::STEGMAIER {
+        match row.text {
+            Ok(text) => {
+                let settings = read::settings_of(row.name, text, Path::new("data")).unwrap();
+                assert_eq!(settings.volume.path, Some(Path::new("data").join(row.file)), "{}", row.name);
+                assert_eq!(settings.method.name, SINGLE_PASS.name(), "{}", row.name);
+                settings.check().unwrap();
+            }
+            Err(why) => assert!(why.starts_with("this program"), "{}: {why}", row.name),
+        }
+    }
+    let of = |name: &str| scenes::STEGMAIER.iter().find(|row| row.name == name).and_then(|row| row.text.ok()).unwrap();
+    let refine = |name: &str| read::settings_of(name, of(name), Path::new("")).unwrap().surface.refine;
+    assert_eq!(refine("stegmaier-7-reflecting-none"), Refine::None);
+    assert_eq!(refine("stegmaier-7-reflecting-linear"), Refine::Linear);
+    let step = read::settings_of("step", of("stegmaier-7-normals-none"), Path::new("")).unwrap().sampling.step;
+    assert_eq!(32.0 / step, 50.0, "samples across the 32 voxels");
 }
 
 #[test]

@@ -17,10 +17,10 @@ const WITHOUT_OPTION: [(&str, &str); 13] = [
     ("surface.levels", "they are too many for a command line"),
     ("environment.image", "--environment names it"),
     ("environment.builtin", "--environment names it"),
+    ("effects.translucency", "--translucency gives its absorption"),
     ("effects.file", "--effect names it"),
     ("effects.hash", "runs note it"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
-    ("effects.translucency", "--translucency gives its absorption"),
 ];
 
 /// Options that are no keys, and the key that each of them changes.
@@ -31,7 +31,7 @@ const WITHOUT_KEY: [(&str, &str); 7] = [
     ("distance", "camera.eye"),
     ("environment", "environment.builtin"),
     ("effect", "effects.file"),
-    ("absorption", "effects.translucency"),
+    ("translucency", "effects.translucency"),
 ];
 
 /// Keys that may be absent and have no range of their own, and why.

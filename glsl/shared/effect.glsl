@@ -18,7 +18,7 @@ struct Sample {
     vec4 color;
     // The value, in the volume's own unit.
     float value;
-    // The value as a part of the scalar range, from 0 to 1.
+    // The value as a part of the scalar range: 0 at its low end, 1 at its high end, less and more beyond.
     float x;
     // Where it is.
     vec3 position;

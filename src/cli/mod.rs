@@ -66,7 +66,7 @@ Exit codes:
   1  done, and `compare` found counts that differ
   2  an option, or a combination of options, that makes no sense
   3  a file, or a value in it, that is wrong
-  4  a device, or a feature of it, that is missing
+  4  a device, or a feature of it, that is missing; a device that was lost or did not end its work
   5  a check that did not hold: messages of the validation layer, a wrong picture
   6  a result that could not be written
 

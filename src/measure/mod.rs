@@ -1,4 +1,5 @@
-//! Measuring, and nothing else: [`runner`] runs frames and leaves a [`record::Run`] with its pictures ([`measured`]).
+//! Measuring, and nothing else: [`runner`] runs frames and leaves a [`record::Run`] with its pictures ([`measured`]);
+//! [`abreast`] takes several scenes in turn.
 //!
 //! 1. [`record`]: one run and the results file; the reference of the format.
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
@@ -6,6 +7,7 @@
 //! 4. [`law`]: skipping changes no picture; [`saving`]: what became of the fragments saved.
 //! 5. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
 
+pub mod abreast;
 mod entries;
 pub mod error;
 mod frame_times;

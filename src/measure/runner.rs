@@ -60,7 +60,7 @@ pub struct Runner<'a> {
 }
 
 /// A frame under measurement.
-struct Entry {
+pub(super) struct Entry {
     scene: Scene,
     plan: Plan,
     frame: Option<GpuFrame>,
@@ -68,6 +68,17 @@ struct Entry {
     picture: Picture,
     plain: Vec<FrameRun>,
     timed: Vec<FrameRun>,
+}
+
+impl Entry {
+    /// Runs the frame for its times of the host, and once more for those of the device.
+    pub(super) fn time(&mut self) -> Result<()> {
+        if let Some(frame) = &mut self.frame {
+            self.plain.push(frame.run(Measure::Nothing)?);
+            self.timed.push(frame.run(Measure::Times)?);
+        }
+        Ok(())
+    }
 }
 
 impl<'a> Runner<'a> {
@@ -93,12 +104,7 @@ impl<'a> Runner<'a> {
         }
         for repeat in 0..effort.repeats {
             progress(&format!("{}: timing {} of {}", self.name, repeat + 1, effort.repeats));
-            for entry in &mut entries {
-                if let Some(frame) = &mut entry.frame {
-                    entry.plain.push(frame.run(Measure::Nothing)?);
-                    entry.timed.push(frame.run(Measure::Times)?);
-                }
-            }
+            entries.iter_mut().try_for_each(Entry::time)?;
         }
         if effort.reference {
             progress(&format!("{}: f64 reference", self.name));
@@ -153,7 +159,7 @@ impl<'a> Runner<'a> {
         Ok((scene, plan))
     }
 
-    fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
+    pub(super) fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
         let (scene, plan) = self.plan(method)?;
         if !plan.method.on_device {
             return prepare_cpu(scene, plan);
@@ -189,7 +195,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {
+    pub(super) fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {
         let size = entry.scene.settings.image.size;
         let (mut error, mut ideal, mut reference) = (None, None, None);
         // The twin has no GLSL.

@@ -28,7 +28,8 @@ pub const EARLY_Z: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Fra
 /// The papers' form of near-neighbor skipping [Thesis §5.3].
 pub const BOUNDS: Option<Form> = Some(Form { cull: Cull::Bounds, mark: Mark::Fragdepth });
 
-/// A ray caster on a device that takes every scene that asks for nothing that one loop alone can do, ends rays and knows nothing of what lies ahead.
+/// A ray caster on a device that takes every scene without what one loop alone can do, ends rays and knows nothing of what lies
+/// ahead.
 pub const RAY_CASTER: Method = Method {
     name: "",
     about: "",

@@ -37,10 +37,21 @@ fn reproduce_without_volumes_names_them_and_shows_the_papers_numbers() {
         assert!(text.contains("9,891,936") && text.contains("Foot") && !text.contains("over a factor"), "{text}");
         let named = if data.is_empty() { "give the folder with fuel.nrrd as --data" } else { "fuel.nrrd is not there" };
         assert!(text.contains(named), "{text}");
-        for file in ["reproduce.html", "reproduce.json", "reproduce.csv"] {
+        assert!(
+            text.contains("Raycasting 10.8 at 512^2, 3.2 at 1024^2") && text.contains("Lucy: this program"),
+            "{text}"
+        );
+        for file in ["reproduce.html", "reproduce.json", "reproduce.csv", "reproduce-rates.csv"] {
             assert!(!place.read(&format!("out/{file}")).is_empty(), "{file}");
         }
     }
+    let text = place.done("reproduce --parts times,figures -o out").text();
+    assert!(
+        text.contains("Fuel: left out: --parts does not name it") && text.contains("with engine.nrrd as"),
+        "{text}"
+    );
+    place.refused("reproduce --parts pictures -o out", 2, &["--parts", "counts", "times", "figures"]);
+    place.refused("reproduce --directions 0 -o out", 2, &["--directions", "1..=360"]);
     place.file("file", "x");
     place.refused("reproduce -o file", 6, &["file", "choose another folder"]);
 }

@@ -7,6 +7,7 @@ mod folders;
 mod orbits;
 mod probes;
 mod reproduce;
+mod reproduce_rates;
 #[path = "../measure/runs.rs"]
 mod runs;
 mod stability;

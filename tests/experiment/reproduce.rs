@@ -237,6 +237,7 @@ fn found() -> Reproduction {
         },
         columns: DATA_SETS.iter().map(column).collect(),
         figures: Vec::new(),
+        timed: None,
     }
 }
 

@@ -2,9 +2,26 @@
 
 use std::path::{Path, PathBuf};
 
-/// The file of a volume in the folder of all, or why there is none.
-pub fn volume(folder: Option<&Path>, name: &str) -> std::result::Result<PathBuf, String> {
-    let Some(folder) = folder else { return Err(format!("give the folder with {name} as --data")) };
-    let path = folder.join(name);
-    if path.is_file() { Ok(path) } else { Err(format!("{} is not there", path.display())) }
+/// Why nothing was done for a part of the work that was not asked for.
+pub const LEFT_OUT: &str = "left out: --parts does not name it";
+
+/// The folder of the volumes, as one part of the work sees it.
+#[derive(Clone, Copy)]
+pub struct DataFolder<'a> {
+    /// None where none was given.
+    pub folder: Option<&'a Path>,
+    /// Whether this part was asked for.
+    pub wanted: bool,
+}
+
+impl DataFolder<'_> {
+    /// The file of a volume, or why there is none.
+    pub fn volume(&self, name: &str) -> std::result::Result<PathBuf, String> {
+        if !self.wanted {
+            return Err(LEFT_OUT.to_owned());
+        }
+        let Some(folder) = self.folder else { return Err(format!("give the folder with {name} as --data")) };
+        let path = folder.join(name);
+        if path.is_file() { Ok(path) } else { Err(format!("{} is not there", path.display())) }
+    }
 }

@@ -90,7 +90,7 @@ pub fn embedded_ratio(variant: &Variant, row: PaperRow, main: bool) -> Option<f6
 pub fn embedded_verdict(lines: &[EmbeddedLine]) -> Option<String> {
     let findings = lines.iter().filter_map(|line| {
         let (theirs, ours) = line.their_ratio.zip(line.ratio)?;
-        Some(Finding { name: line.name, theirs, ours, sweep: line.sweep })
+        Some(Finding { name: line.name.to_owned(), theirs, ours, sweep: line.sweep })
     });
     judged(findings, "those without geometry")
 }

@@ -1,4 +1,4 @@
-//! The thesis' tables, theirs beside ours, and pictures like its figures.
+//! The papers' tables, theirs beside ours, and pictures like their figures.
 
 mod data;
 pub mod embedded;
@@ -7,11 +7,18 @@ mod figures;
 mod page;
 mod paper_row;
 pub mod papers;
+pub mod rates;
+mod rates_csv;
+mod rates_rows;
+mod rates_run;
 mod record;
 mod rows;
 mod run;
 mod spreadsheet;
+pub mod termination;
+mod termination_run;
 mod text;
+mod timed_tables;
 
 use super::folder::{KeptResults, Page, Pages};
 use crate::error::Result;
@@ -19,13 +26,17 @@ use crate::provenance::{self, DocumentFormat};
 
 pub use embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 pub use page::page;
-pub use record::{FORMAT, FigureRecord, ReproducedSet, Reproduction, Variant};
+pub use rates_csv::rates_csv;
+pub use rates_rows::{Rate, RateCell, RateLine, rate, rate_lines, rate_verdict};
+pub use rates_run::{TimingPlan, time_rates};
+pub use record::{FORMAT, FigureRecord, ReproducedSet, Reproduction, TimedRecord, Variant};
 pub use rows::{FragmentLine, lines, verdict};
-pub use run::{Counted, CountedSet, ReproduceJob, keep};
+pub use run::{Counted, CountedSet, Part, ReproduceJob, TimedSets, keep};
 pub use spreadsheet::csv;
+pub use termination_run::{SEMI_TRANSPARENT, time_termination};
 pub use text::text;
 
-/// `reproduce.html` and `reproduce.csv`.
+/// `reproduce.html`, `reproduce.csv` and `reproduce-rates.csv`.
 pub const PAGES: Pages = Pages { json: "reproduce.json", make };
 
 fn make(kept: &KeptResults) -> Result<Vec<Page>> {
@@ -35,5 +46,9 @@ fn make(kept: &KeptResults) -> Result<Vec<Page>> {
         remedies: ["give one that `reproduce` wrote", "read it with the program that wrote it, or count again"],
     };
     let found = provenance::read(&kept.name, &kept.text, &expected)?;
-    Ok(vec![Page::new("reproduce.html", page(&found, kept.pictures)), Page::new("reproduce.csv", csv(&found)?)])
+    Ok(vec![
+        Page::new("reproduce.html", page(&found, kept.pictures)),
+        Page::new("reproduce.csv", csv(&found)?),
+        Page::new("reproduce-rates.csv", rates_csv(&found)?),
+    ])
 }

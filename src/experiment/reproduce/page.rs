@@ -1,10 +1,13 @@
 //! `reproduce.html`: the tables with their pictures, in the dress of the report.
 
 use super::embedded_rows::embedded_ratio;
-use super::papers::{DataSet, OPEN, PaperRow};
+use super::papers::{DataSet, PaperRow};
 use super::rows::ratio;
-use super::text::{KINDS, absent, kind_of_fragments, percent, present};
-use super::{FigureRecord, ReproducedSet, Reproduction, Variant};
+use super::text::{KINDS, absent, kind_of_fragments, open_choices, percent, present};
+use super::timed_tables::{
+    RATES_TITLE, TERMINATION_TITLE, absent_rates, gains_table, present_rates, rates_sweep, rates_table,
+};
+use super::{FigureRecord, ReproducedSet, Reproduction, TimedRecord, Variant};
 use crate::report::html::{Html, Intro, Pictures, escape};
 use crate::report::table::{Column, Table};
 
@@ -12,25 +15,28 @@ use crate::report::table::{Column, Table};
 pub fn page(found: &Reproduction, pictures: Pictures) -> String {
     let lead = "Use of GPU Functionality in Volume Rendering (NTNU, 2005) counted fragments of near-neighbor skipping beside \
                 those of empty block skipping, alone and with polygons in the volume. Its numbers stand beside ours, of the same \
-                views and steps; what it leaves open is swept.";
+                views and steps; what it leaves open is swept. Frame rates of A Simple and Flexible Volume Rendering Framework for \
+                Graphics-Hardware-based Raycasting (2005) stand beside ours too.";
     let mut intro = Intro::new(vec![lead.to_owned()], &found.provenance);
-    if let Some(run) = found.columns.iter().flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {
+    let timed = found.timed.iter().flat_map(|timed| &timed.rates);
+    if let Some(run) = found.columns.iter().chain(timed).flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {
         intro = intro.fact("Device", &format!("{}, {}", run.device, run.driver));
     }
-    let mut page = Html::page("Depthleap reproduces the thesis' tables", &intro);
+    let mut page = Html::page("Depthleap reproduces the papers' tables", &intro);
     present(found).for_each(|(set, column)| section(&mut page, set, column, pictures));
+    found.timed.iter().for_each(|timed| timed_sections(&mut page, timed, pictures));
     figures(&mut page, &found.figures, pictures);
-    let absent = absent(found);
+    let absent: Vec<String> = absent(found).into_iter().chain(found.timed.iter().flat_map(absent_rates)).collect();
     if !absent.is_empty() {
         page.raw("<section>\n<h2>Absent</h2>\n");
         page.list(&absent);
         page.raw("</section>\n");
     }
-    page.raw("<section>\n<h2>What the thesis leaves open</h2>\n<dl class=\"facts\">\n");
-    for (what, choice) in OPEN {
-        page.fact(what, choice);
+    for (paper, open) in open_choices(found) {
+        page.raw(&format!("<section>\n<h2>What {paper} leaves open</h2>\n<dl class=\"facts\">\n"));
+        open.iter().for_each(|(what, choice)| page.fact(what, choice));
+        page.raw("</dl>\n</section>\n");
     }
-    page.raw("</dl>\n</section>\n");
     page.closed()
 }
 
@@ -63,13 +69,48 @@ fn section(page: &mut Html, set: &DataSet, column: &ReproducedSet, pictures: Pic
     page.raw("</section>\n");
 }
 
-/// The pictures of scenes like the thesis' figures, each with what it shows.
+/// What was timed: frame rates, and early ray termination.
+fn timed_sections(page: &mut Html, timed: &TimedRecord, pictures: Pictures) {
+    if let Some((table, verdicts)) = rates_table(timed) {
+        page.raw("<section>\n");
+        page.tag("h2", RATES_TITLE);
+        page.raw("<p class=\"sub\">Stegmaier05, Table 1</p>\n");
+        let remarks = present_rates(timed).filter_map(|(set, _)| Some(format!("{}: {}", set.name, set.remark?)));
+        page.list(&remarks.collect::<Vec<_>>());
+        page.raw("<div class=\"pictures\">");
+        for (set, column) in present_rates(timed) {
+            let Some(file) = &column.picture else { continue };
+            page.raw("<figure>");
+            page.picture(pictures, file, set.name);
+            let caption = format!("{}: {}", set.name, column.file.as_deref().unwrap_or(""));
+            page.raw(&format!("<figcaption>{}</figcaption></figure>\n", escape(&caption)));
+        }
+        page.raw("</div>\n");
+        page.table(&table);
+        verdicts.iter().for_each(|verdict| page.tag("p", verdict));
+        if let Some(sweep) = rates_sweep(timed) {
+            page.tag("h3", "each choice alone: frames per second");
+            page.table(&sweep);
+        }
+        page.raw("</section>\n");
+    }
+    if let Some((table, verdict)) = gains_table(timed) {
+        page.raw("<section>\n");
+        page.tag("h2", TERMINATION_TITLE);
+        page.raw("<p class=\"sub\">Stegmaier05 §7</p>\n");
+        page.table(&table);
+        page.tag("p", &verdict);
+        page.raw("</section>\n");
+    }
+}
+
+/// The pictures of scenes like the papers' figures, each with what it shows.
 fn figures(page: &mut Html, figures: &[FigureRecord], pictures: Pictures) {
     if figures.is_empty() {
         return;
     }
     page.raw("<section>\n<h2>Figures</h2>\n");
-    page.tag("p", "Scenes like those of the thesis' figures; places and colours are ours.");
+    page.tag("p", "Scenes like those of the papers' figures; places and colours are ours.");
     page.raw("<div class=\"pictures\">");
     for figure in figures.iter().filter(|figure| figure.absent.is_none()) {
         let Some(file) = &figure.picture else { continue };

@@ -46,7 +46,7 @@ pub fn lines(set: &DataSet, column: &ReproducedSet, main: bool) -> Vec<FragmentL
 pub fn sweep(column: &ReproducedSet, ratio: impl Fn(&Variant) -> Option<f64>) -> Option<[f64; 2]> {
     let ratios = || column.variants.iter().filter_map(&ratio);
     let ends = ratios().reduce(f64::min).zip(ratios().reduce(f64::max));
-    ends.map(|(low, high)| [low, high]).filter(|_| column.variants.len() > 1)
+    ends.map(|(low, high)| [low, high]).filter(|_| ratios().count() > 1)
 }
 
 /// The ratio of a row in one variant.
@@ -97,8 +97,8 @@ const ALIKE: f64 = 1.5;
 /// A ratio of ours beside theirs.
 pub struct Finding {
     /// The name of our row.
-    pub name: &'static str,
-    /// The ratio of the thesis.
+    pub name: String,
+    /// The ratio of the paper.
     pub theirs: f64,
     /// The ratio of the main configuration.
     pub ours: f64,
@@ -110,7 +110,7 @@ pub struct Finding {
 pub fn verdict(lines: &[FragmentLine]) -> Option<String> {
     let findings = lines.iter().filter(|line| line.row != PaperRow::Block).filter_map(|line| {
         let (theirs, ours) = line.their_ratio.zip(line.our_ratio)?;
-        Some(Finding { name: line.row.name(), theirs, ours, sweep: line.sweep })
+        Some(Finding { name: line.row.name().to_owned(), theirs, ours, sweep: line.sweep })
     });
     judged(findings, "block skipping")
 }

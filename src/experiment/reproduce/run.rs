@@ -1,15 +1,20 @@
-//! Counts the fragments of each data set, in the main configuration and with each choice made otherwise.
+//! Counts the fragments of each data set, in the main configuration and with each choice made otherwise; then frames are timed
+//! and figures drawn.
 
 use std::path::{Path, PathBuf};
 
-use super::data;
+use super::data::DataFolder;
 use super::figures::{self, DrawnFigure};
 use super::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
-use super::{FORMAT, ReproducedSet, Reproduction, Variant};
+use super::rates::RATE_SETS;
+use super::rates_run::{TimingPlan, file_of, time_rates};
+use super::termination_run::time_termination;
+use super::{FORMAT, ReproducedSet, Reproduction, TimedRecord, Variant};
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
 use crate::frame::EarlyEnd;
+use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Picture, Run};
@@ -40,21 +45,46 @@ const CHOICES: [OpenChoice; 7] = [
     ("end of a ray", "noticed on arrival", |s| s.method.exit_lookahead = false),
 ];
 
-/// What is to be counted.
+/// A part of the work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// The thesis' tables of fragments
+    Counts,
+    /// Frame rates and early ray termination [Stegmaier05]
+    Times,
+    /// Pictures like the papers' figures
+    Figures,
+}
+
+/// What is to be counted, timed and drawn.
 pub struct ReproduceJob {
     /// The folder of the volumes.
     pub data: Option<PathBuf>,
+    /// What is done.
+    pub parts: Vec<Part>,
     /// Without the sweep over what the thesis leaves open.
     pub quick: bool,
+    /// How frames are timed.
+    pub timing: TimingPlan,
 }
 
 /// A data set, and its picture in the main configuration.
 pub type CountedSet = (ReproducedSet, Option<Picture>);
 
+/// Frames that were timed: the sets of the frame rates, and early ray termination.
+pub struct TimedSets {
+    /// What times are compared by on the device; none without one.
+    pub clock: Option<Clock>,
+    /// In the order of [`RATE_SETS`].
+    pub rates: Vec<CountedSet>,
+    pub termination: ReproducedSet,
+}
+
 /// All that was counted and drawn.
 pub struct Counted {
     /// Data sets in the order of [`DATA_SETS`].
     pub columns: Vec<CountedSet>,
+    pub timed: TimedSets,
     pub figures: Vec<DrawnFigure>,
 }
 
@@ -62,43 +92,72 @@ impl ReproduceJob {
     /// # Errors
     /// When a volume cannot be read, or the driver fails.
     pub fn run(&self, host: &Host) -> Result<Counted> {
-        let mut columns = Vec::new();
-        let there = |set: &DataSet| self.file(set).is_ok();
+        let opened = if self.needs_device() { Some((host.open)()?) } else { None };
         // In the papers every pass runs, those of rays that have ended too.
-        let every_pass = |checked| Checked { early_end: Some(EarlyEnd::Never), ..checked };
-        let opened = if DATA_SETS.iter().any(there) { Some(every_pass((host.open)()?)) } else { None };
-        for set in &DATA_SETS {
-            let file = self.file(set);
-            let mut column = ReproducedSet {
-                name: set.name.to_owned(),
-                source: set.source.to_owned(),
-                file: file.as_ref().ok().map(|path| path.display().to_string()),
-                absent: file.as_ref().err().cloned(),
-                picture: None,
-                variants: Vec::new(),
-            };
-            let mut picture = None;
-            if let (Ok(path), Some(checked)) = (&file, &opened) {
-                let choices = if self.quick { &[][..] } else { &CHOICES[..] };
-                for choice in std::iter::once(&MAIN).chain(choices) {
-                    (host.say)(&format!("{}: {}, {}", set.name, choice.0, choice.1));
-                    let (variant, shown) = count(checked, set, path, *choice)?;
-                    column.variants.push(variant);
-                    picture = picture.or(shown);
-                }
-            }
-            columns.push((column, picture));
-        }
-        let figures = figures::draw(opened.as_ref(), self.data.as_deref(), host)?;
+        let opened = opened.map(|checked| Checked { early_end: Some(EarlyEnd::Never), ..checked });
+        let checked = opened.as_ref();
+        let columns = DATA_SETS.iter().map(|set| self.column(checked, set, host)).collect::<Result<_>>()?;
+        let times = self.data(Part::Times);
+        let rates = time_rates(checked, times, &self.timing, host)?;
+        let any = rates.iter().any(|(column, _)| !column.variants.is_empty());
+        let clock = checked.filter(|_| any).map(clock);
+        let timed = TimedSets { clock, rates, termination: time_termination(checked, times, &self.timing, host)? };
+        let figures = figures::draw(checked, self.data(Part::Figures), host)?;
         opened.map_or(Ok(()), host.close)?;
-        Ok(Counted { columns, figures })
+        Ok(Counted { columns, timed, figures })
+    }
+
+    /// Whether any volume of a part that was asked for is there.
+    fn needs_device(&self) -> bool {
+        let times = self.data(Part::Times);
+        let counted = DATA_SETS.iter().any(|set| self.file(set).is_ok());
+        counted
+            || RATE_SETS.iter().any(|set| file_of(set, times).is_ok())
+            || figures::any_volume(self.data(Part::Figures))
+    }
+
+    /// A data set, counted where its volume is there.
+    fn column(&self, checked: Option<&Checked>, set: &DataSet, host: &Host) -> Result<CountedSet> {
+        let file = self.file(set);
+        let mut column = ReproducedSet {
+            name: set.name.to_owned(),
+            source: set.source.to_owned(),
+            file: file.as_ref().ok().map(|path| path.display().to_string()),
+            absent: file.as_ref().err().cloned(),
+            picture: None,
+            variants: Vec::new(),
+        };
+        let mut picture = None;
+        if let (Ok(path), Some(checked)) = (&file, checked) {
+            let choices = if self.quick { &[][..] } else { &CHOICES[..] };
+            for choice in std::iter::once(&MAIN).chain(choices) {
+                (host.say)(&format!("{}: {}, {}", set.name, choice.0, choice.1));
+                let (variant, shown) = count(checked, set, path, *choice)?;
+                column.variants.push(variant);
+                picture = picture.or(shown);
+            }
+        }
+        Ok((column, picture))
     }
 
     /// The file of a data set, or why there is none.
     fn file(&self, set: &DataSet) -> std::result::Result<PathBuf, String> {
         let Some(name) = set.file else { return Err(set.remark.unwrap_or("the volume is not available").to_owned()) };
-        data::volume(self.data.as_deref(), name)
+        self.data(Part::Counts).volume(name)
     }
+
+    fn wants(&self, part: Part) -> bool {
+        self.parts.contains(&part)
+    }
+
+    fn data(&self, part: Part) -> DataFolder<'_> {
+        DataFolder { folder: self.data.as_deref(), wanted: self.wants(part) }
+    }
+}
+
+/// What times are compared by on a device.
+fn clock(checked: &Checked) -> Clock {
+    Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0)
 }
 
 /// All rows of one configuration, and its picture where it is the main one. Where there are polygons, first without them and
@@ -178,16 +237,16 @@ fn apart(base: &MethodSettings) -> Vec<MethodSettings> {
 /// When a file cannot be written.
 pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
     create_folder(folder)?;
-    let mut columns = Vec::new();
-    for (mut column, picture) in counted.columns {
-        for run in column.variants.iter_mut().flat_map(|variant| &mut variant.runs) {
-            run.settings = settings_in(folder, run.settings.clone());
-        }
-        if let Some(picture) = &picture {
-            column.picture = Some(keep_picture(folder, &["reproduce", &column.name], picture, [0.0; 3])?);
-        }
-        columns.push(column);
-    }
+    let keep_all = |what: &str, sets: Vec<CountedSet>| -> Result<Vec<ReproducedSet>> {
+        sets.into_iter().map(|set| keep_set(folder, what, set)).collect()
+    };
+    let columns = keep_all("reproduce", counted.columns)?;
+    let TimedSets { clock, rates, termination } = counted.timed;
+    let timed = TimedRecord {
+        clock,
+        rates: keep_all("rates", rates)?,
+        termination: keep_set(folder, "termination", (termination, None))?,
+    };
     let mut figures = Vec::new();
     for (mut figure, picture) in counted.figures {
         figure.run.iter_mut().for_each(|run| run.settings = settings_in(folder, run.settings.clone()));
@@ -196,7 +255,18 @@ pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
         }
         figures.push(figure);
     }
-    let found = Reproduction { provenance: Provenance::now(FORMAT), columns, figures };
+    let found = Reproduction { provenance: Provenance::now(FORMAT), columns, figures, timed: Some(timed) };
     write_json(&folder.join("reproduce.json"), &found)?;
     Ok(found)
+}
+
+/// A data set as the folder's JSON has it, its picture kept as one of `what`.
+fn keep_set(folder: &Path, what: &str, (mut column, picture): CountedSet) -> Result<ReproducedSet> {
+    for run in column.variants.iter_mut().flat_map(|variant| &mut variant.runs) {
+        run.settings = settings_in(folder, run.settings.clone());
+    }
+    if let Some(picture) = &picture {
+        column.picture = Some(keep_picture(folder, &[what, &column.name], picture, [0.0; 3])?);
+    }
+    Ok(column)
 }

@@ -5,8 +5,12 @@ use std::fmt::Write;
 use super::embedded::Geometry;
 use super::embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 use super::papers::{DATA_SETS, DataSet, OPEN};
+use super::rates::RATES_OPEN;
 use super::rows::{lines, verdict};
-use super::{FragmentLine, ReproducedSet, Reproduction};
+use super::timed_tables::{
+    RATES_TITLE, TERMINATION_TITLE, absent_rates, gains_table, present_rates, rates_sweep, rates_table,
+};
+use super::{FragmentLine, ReproducedSet, Reproduction, TimedRecord};
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
 
@@ -117,13 +121,49 @@ pub fn text(found: &Reproduction) -> String {
         }
         out.push('\n');
     }
-    let absent = absent(found);
+    found.timed.iter().for_each(|timed| out += &timed_text(timed));
+    let absent: Vec<String> = absent(found).into_iter().chain(found.timed.iter().flat_map(absent_rates)).collect();
     if !absent.is_empty() {
         let _ = writeln!(out, "Absent\n  {}\n", absent.join("\n  "));
     }
-    out += "What the thesis leaves open\n";
-    for (what, choice) in OPEN {
-        let _ = writeln!(out, "  {what}: {choice}.");
+    for (paper, open) in open_choices(found) {
+        let _ = writeln!(out, "What {paper} leaves open");
+        for (what, choice) in open {
+            let _ = writeln!(out, "  {what}: {choice}.");
+        }
+    }
+    out
+}
+
+/// What each paper leaves open of the tables that are shown.
+pub fn open_choices(
+    found: &Reproduction,
+) -> impl Iterator<Item = (&'static str, &'static [(&'static str, &'static str)])> {
+    let timed = found.timed.as_ref().map(|_| ("Stegmaier05", &RATES_OPEN[..]));
+    std::iter::once(("the thesis", &OPEN[..])).chain(timed)
+}
+
+/// The tables of what was timed.
+fn timed_text(timed: &TimedRecord) -> String {
+    let layout = TextLayout { indent: 4, ..TextLayout::default() };
+    let mut out = String::new();
+    if let Some((table, verdicts)) = rates_table(timed) {
+        let _ = writeln!(out, "{RATES_TITLE} (Stegmaier05, Table 1)");
+        for (set, remark) in present_rates(timed).filter_map(|(set, _)| Some((set, set.remark?))) {
+            let _ = writeln!(out, "  {}: {remark}", set.name);
+        }
+        out += &table.text(&layout);
+        verdicts.iter().for_each(|verdict| out += &format!("    {verdict}\n"));
+        if let Some(sweep) = rates_sweep(timed) {
+            let _ = writeln!(out, "  each choice alone: frames per second");
+            out += &sweep.text(&layout);
+        }
+        out.push('\n');
+    }
+    if let Some((table, verdict)) = gains_table(timed) {
+        let _ = writeln!(out, "{TERMINATION_TITLE} (Stegmaier05 §7)");
+        out += &table.text(&layout);
+        let _ = writeln!(out, "    {verdict}\n");
     }
     out
 }

@@ -1,7 +1,11 @@
 //! Built-in scenes: what the papers show in figures, complete in itself, each a scene file's text.
 //!
 //! **To add a scene**: its text here, its row in [`ALL`]. `depthleap reproduce` then shows its picture, and one of each form
-//! of it on a volume of the user's.
+//! of it on a volume of the user's. Figures that have no built-in form stand in [`STEGMAIER`].
+
+mod stegmaier;
+
+pub use stegmaier::{PaperFigure, STEGMAIER};
 
 /// A scene that needs no file.
 #[derive(Clone, Copy, Debug)]

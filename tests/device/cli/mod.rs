@@ -4,6 +4,7 @@ mod accuracy;
 mod effects;
 #[path = "../../cli/program.rs"]
 pub mod program;
+mod reproduce;
 mod shaders;
 mod stability;
 
@@ -43,8 +44,8 @@ pub fn tests() -> Vec<Test> {
         test("report makes all pages again", pages_come_again).needs(Need::AnyDriver),
         test("a data set is rendered as it was", fuel_counts).needs(Need::Data("fuel.nrrd")),
     ];
-    let any_driver = accuracy::tests().into_iter().chain(shaders::tests());
     tests.extend(effects::tests());
+    let any_driver = accuracy::tests().into_iter().chain(shaders::tests()).chain(reproduce::tests());
     tests.extend(any_driver.map(|test| test.needs(Need::AnyDriver)));
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()

@@ -1,0 +1,84 @@
+//! `depthleap reproduce`: what it times, and the figures it draws, on volumes of the paper.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use depthleap::experiment::Host;
+use depthleap::experiment::reproduce::rates::RATE_SETS;
+use depthleap::experiment::reproduce::termination::gain_lines;
+use depthleap::experiment::reproduce::{Part, ReproduceJob, TimingPlan};
+use depthleap::frame::self_check;
+use depthleap::measure::picture::Picture;
+use depthleap::measure::record::Clock;
+use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::read;
+use depthleap::scene::scenes::{PaperFigure, STEGMAIER};
+use depthleap::vulkan::Device;
+
+use crate::harness::{Need, Test, data, test};
+
+pub fn tests() -> Vec<Test> {
+    let tests = [
+        test("reproduce times its sets and early ray termination", times),
+        test("reproduce draws the figures of the single pass", figures),
+    ];
+    let files = ["buckyball.nrrd", "ct_head.nrrd", "engine.nrrd"];
+    tests.into_iter().map(|test| files.into_iter().fold(test, |test, file| test.needs(Need::Data(file)))).collect()
+}
+
+fn checked(device: &Arc<Device>) -> Checked {
+    Checked { device: device.clone(), check: self_check(device).unwrap(), early_end: None }
+}
+
+fn times(device: &Arc<Device>) {
+    let timing = TimingPlan { sizes: vec![16, 24], directions: 2, repeats: 2, sweep: true };
+    let job = ReproduceJob { data: Some(data("")), parts: vec![Part::Times], quick: false, timing };
+    let host = Host { open: &|| Ok(checked(device)), close: &|_| Ok(()), say: &|_| {} };
+    let counted = job.run(&host).unwrap();
+    assert!(counted.columns.iter().all(|(column, _)| column.variants.is_empty() && column.absent.is_some()));
+    assert!(counted.figures.iter().all(|(figure, picture)| figure.absent.is_some() && picture.is_none()));
+    assert!(counted.timed.clock.is_some());
+    for (set, (column, picture)) in RATE_SETS.iter().zip(&counted.timed.rates) {
+        assert_eq!(column.name, set.name);
+        assert_eq!(set.open.is_err(), column.absent.is_some(), "{}: {:?}", set.name, column.absent);
+        let Some(main) = column.variants.first() else { continue };
+        assert_eq!(picture.as_ref().map(|picture| picture.size), Some([16; 2]));
+        let runs = &main.runs;
+        assert_eq!(runs.len(), 2 * 2, "{}: two viewports from two directions", set.name);
+        assert!(runs.iter().all(|run| run.milliseconds(Clock::Wall).is_some_and(|ms| ms > 0.0)), "{}", set.name);
+        assert_ne!(runs[0].settings.camera, runs[1].settings.camera, "{}", set.name);
+        assert!(runs[0].fragments.main > 0 && runs[2].fragments.main > runs[0].fragments.main, "{}", set.name);
+        // Only the bucky ball that is there has other slices than the paper's; the engine is what it is told in.
+        let choices: Vec<&str> = column.variants.iter().map(|variant| variant.choice.as_str()).collect();
+        assert_eq!(choices.contains(&"sampling distance"), set.name != "Head", "{}: {choices:?}", set.name);
+        assert!(column.variants[1..].iter().all(|variant| variant.runs.len() == 2), "{}", set.name);
+    }
+    let lines = gain_lines(&counted.timed.termination, Clock::Wall);
+    assert!(lines.len() == 3 && lines.iter().all(|line| line.gains.len() == 2), "{lines:?}");
+}
+
+fn figures(device: &Arc<Device>) {
+    let checked = checked(device);
+    let drawn: Vec<(&str, Picture)> =
+        STEGMAIER.iter().filter_map(|row| Some((row.name, picture(&checked, row, row.text.ok()?)))).collect();
+    for (name, picture) in &drawn {
+        let covered = picture.pixels.iter().filter(|pixel| pixel[3] > 0.5).count();
+        assert!(covered * 20 > picture.pixels.len(), "{name} shows {covered} pixels");
+    }
+    for (i, (a, picture)) in drawn.iter().enumerate() {
+        for (b, other) in &drawn[..i] {
+            assert_ne!(picture.pixels, other.pixels, "{a} and {b} are the same picture");
+        }
+    }
+}
+
+/// A figure in a small viewport.
+fn picture(checked: &Checked, row: &PaperFigure, text: &str) -> Picture {
+    let mut settings = read::settings_of(row.name, text, &data("")).unwrap();
+    settings.image.size = [48; 2];
+    assert!(settings.volume.path.as_deref().is_some_and(Path::exists), "{}", row.name);
+    let effort = Effort { warmups: 0, repeats: 0, reference: false };
+    let mut runner = Runner::new(Some(checked), read::scene(&settings).unwrap(), row.name.to_owned());
+    let mut measured = runner.measure(&[settings.method], effort, &|_| {}).unwrap();
+    measured.pop().unwrap().picture
+}
