@@ -208,7 +208,8 @@ fn plane_in_a_medium_is_beers_law_twice() {
 /// All roots of the interpolant, where rays leave the same cells: by the exact integral, which shares no sampling.
 #[test]
 fn roots_are_those_of_the_exact_picture() {
-    for (volume, isos) in [("shells:24", [60.0, 120.0]), ("jets:24", [60.0, 120.0]), ("marschner-lobb:24", [0.3, 0.6])] {
+    for (volume, isos) in [("shells:24", [60.0, 120.0]), ("jets:24", [60.0, 120.0]), ("marschner-lobb:24", [0.3, 0.6])]
+    {
         let levels = vec![sheet(isos[0], [0.9, 0.1, 0.2], 0.3), sheet(isos[1], [0.2, 0.9, 0.3], 0.4)];
         let settings = settings(levels, |s| (s.surface.refine, s.sampling.step) = (Refine::Exact, 2.5));
         let scene = built_in(&settings, volume);

@@ -237,7 +237,8 @@ fn figures_of_papers_name_their_volume_and_say_what_cannot_be_drawn() {
         match row.text {
             Ok(text) => {
                 let settings = read::settings_of(row.name, text, Path::new("data")).unwrap();
-                assert_eq!(settings.volume.path, Some(Path::new("data").join(row.file)), "{}", row.name);
+                let file = settings.volume.path.as_ref().or(settings.volume.mesh.as_ref());
+                assert_eq!(file, Some(&Path::new("data").join(row.file)), "{}", row.name);
                 assert_eq!(settings.method.name, SINGLE_PASS.name(), "{}", row.name);
                 settings.check().unwrap();
             }

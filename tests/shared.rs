@@ -93,7 +93,7 @@ fn axis_piece() -> Layout {
 }
 
 fn clip_plane() -> Layout {
-    layout!(ClipPlane { heights })
+    layout!(ClipPlane { heights, plane })
 }
 
 /// What differs, one line each.

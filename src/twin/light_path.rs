@@ -30,10 +30,10 @@ impl Twin<'_> {
             LightPlace::Direction(_) => f64::INFINITY,
             LightPlace::Position(at) => at.distance(point.place),
         };
-        if let (Some(bias), Some(normal)) = (self.scene.shadow_bias(), point.turned()) {
-            if normal.dot(way) > 0.0 {
-                (all.arriving.clear, all.unsure) = self.clear_to_light(point.place + bias * normal, way, reach);
-            }
+        if let (Some(bias), Some(normal)) = (self.scene.shadow_bias(), point.turned())
+            && normal.dot(way) > 0.0
+        {
+            (all.arriving.clear, all.unsure) = self.clear_to_light(point.place + bias * normal, way, reach);
         }
         if let Some(translucency) = self.scene.translucency() {
             let (inside, off) = self.inside_to_light(point.place, way, reach);

@@ -38,7 +38,7 @@ fn reproduce_without_volumes_names_them_and_shows_the_papers_numbers() {
         let named = if data.is_empty() { "give the folder with fuel.nrrd as --data" } else { "fuel.nrrd is not there" };
         assert!(text.contains(named), "{text}");
         assert!(
-            text.contains("Raycasting 10.8 at 512^2, 3.2 at 1024^2") && text.contains("Lucy: this program"),
+            text.contains("Raycasting 10.8 at 512^2, 3.2 at 1024^2") && text.contains("lucy_decimated.ply"),
             "{text}"
         );
         for file in ["reproduce.html", "reproduce.json", "reproduce.csv", "reproduce-rates.csv"] {

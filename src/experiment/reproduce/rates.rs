@@ -87,8 +87,8 @@ pub const RATE_SETS: [RateSet; 4] = [
         name: "Lucy",
         dims: [256, 256, 512],
         file: "lucy_decimated.ply",
-        open: Err("this program makes no distance field of a mesh, which the paper's volume is"),
-        remark: None,
+        open: Ok(distances),
+        remark: Some("a distance field that is made of lucy_decimated.ply, a mesh of 99,970 of the statue's triangles"),
         step: 1.0,
         theirs: [[7.0, 2.6]],
     },
@@ -96,6 +96,11 @@ pub const RATE_SETS: [RateSet; 4] = [
 
 fn whole_file(settings: &mut Settings, path: PathBuf) {
     settings.volume.path = Some(path);
+}
+
+/// As many distances to the mesh as the paper has.
+fn distances(settings: &mut Settings, path: PathBuf) {
+    (settings.volume.mesh, settings.volume.dims) = (Some(path), Some([256, 256, 512]));
 }
 
 /// Slices of the paper's engine, and of the file's; both have 256 x 256 voxels in each.

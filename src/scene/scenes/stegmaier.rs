@@ -28,6 +28,10 @@ const fn bucky(name: &'static str, about: &'static str, text: Result<&'static st
     PaperFigure { name, about, source: "Stegmaier05, Figure 7", file: "buckyball.nrrd", text }
 }
 
+const fn lucy(name: &'static str, about: &'static str, text: Result<&'static str, &'static str>) -> PaperFigure {
+    PaperFigure { name, about, source: "Stegmaier05, Figure 1", file: "lucy_decimated.ply", text }
+}
+
 const fn engine(
     name: &'static str,
     source: &'static str,
@@ -38,14 +42,27 @@ const fn engine(
 }
 
 /// Every such figure, in the order of the paper's.
-pub const STEGMAIER: [PaperFigure; 16] = [
-    PaperFigure {
-        name: "stegmaier-1-lucy",
-        about: "a statue that reflects what is around it",
-        source: "Stegmaier05, Figure 1",
-        file: "lucy_decimated.ply",
-        text: Err("this program makes no distance field of a mesh"),
-    },
+pub const STEGMAIER: [PaperFigure; 19] = [
+    lucy(
+        "stegmaier-1-lucy-translucent",
+        "a statue of a translucent material, lit from behind",
+        parts!("lucy", "statue-translucent"),
+    ),
+    lucy(
+        "stegmaier-1-lucy-transparent",
+        "a statue whose surface lets something through",
+        parts!("lucy", "statue-transparent", "lit"),
+    ),
+    lucy(
+        "stegmaier-1-lucy-refracting",
+        "a statue that refracts what is behind it",
+        Err("this program draws no rays that are refracted"),
+    ),
+    lucy(
+        "stegmaier-1-lucy-reflecting",
+        "a statue that reflects what is around it, there a light probe",
+        parts!("lucy", "statue", "reflecting"),
+    ),
     engine(
         "stegmaier-1-reflecting",
         "Stegmaier05, Figure 1, there Lucy in a light probe",
@@ -68,13 +85,13 @@ pub const STEGMAIER: [PaperFigure; 16] = [
         "stegmaier-5-surface-in-volume",
         "Stegmaier05, Figure 5",
         "an opaque iso-surface in the semi-transparent engine",
-        Err("this program draws an iso-surface in place of the volume's colours, not among them"),
+        parts!("engine", "surface-in-volume", "lit"),
     ),
     engine(
         "stegmaier-5-transparent",
         "Stegmaier05, Figure 5",
         "semi-transparent iso-surfaces of the engine",
-        Err("this program draws opaque iso-surfaces only"),
+        parts!("engine", "transparent", "lit"),
     ),
     engine(
         "stegmaier-6-surface",
@@ -86,7 +103,7 @@ pub const STEGMAIER: [PaperFigure; 16] = [
         "stegmaier-6-shadows",
         "Stegmaier05, Figure 6",
         "an iso-surface of the engine that throws shadows on itself",
-        Err("this program draws no shadows"),
+        parts!("engine", "surface", "shadows", "lit"),
     ),
     engine(
         "stegmaier-6-clipped",
@@ -104,7 +121,7 @@ pub const STEGMAIER: [PaperFigure; 16] = [
         "stegmaier-6-translucent",
         "Stegmaier05, Figure 6",
         "the engine of a translucent material",
-        Err("this program draws no light that goes through a material"),
+        parts!("engine", "translucent"),
     ),
     engine(
         "stegmaier-6-refracting",
