@@ -136,7 +136,9 @@ fn told(device: &Arc<Device>) {
 /// Opaque wherever it is asked: nothing where the transfer function shows nothing, and loops that leap have the picture of those that
 /// do not.
 fn nothing_new(device: &Arc<Device>) {
-    let scene = with(&of(|_| {}), "vec4 effect(Sample here) { return vec4(here.coordinate, 1.0); }");
+    // From outside, where some rays meet nothing that shows.
+    let scene = seen(&of(|_| {}), VIEWS[1]);
+    let scene = with(&scene, "vec4 effect(Sample here) { return vec4(here.coordinate, 1.0); }");
     let mut rules = std::collections::BTreeMap::new();
     for method in loops() {
         let mut stage = Stage::new(device);
