@@ -82,22 +82,22 @@ impl Twin<'_> {
     fn clear_to_light(&self, begin: DVec3, way: DVec3, reach: f64) -> (f64, bool) {
         let levels = self.scene.surface.iter().flat_map(|surface| &surface.levels);
         let opacities: Vec<f64> = levels.map(|level| level.opacity).collect();
-        let near = |sample: RoundedValue| {
-            self.surface_values.iter().any(|[from, _]| (sample.value - from).abs() < sample.rounding)
-        };
-        let first = self.value_at_point(begin);
-        let (mut within, mut unsure) = (surfaces_around(self.surface_values, first.value), near(first));
-        let mut clear = 1.0;
-        for at in self.places_on(self.way_out(begin, way, reach)) {
+        // By values as they are, and by the least and the greatest that f32 may find: where rounding moves a crossing from one step to
+        // the next, it is still one.
+        let around = |at: f64| {
             let sample = self.value_at_point(begin + at * way);
-            unsure |= near(sample);
-            let to = surfaces_around(self.surface_values, sample.value);
-            for opacity in &opacities[within.min(to)..within.max(to)] {
-                clear *= 1.0 - opacity;
+            [0.0, -sample.rounding, sample.rounding].map(|by| surfaces_around(self.surface_values, sample.value + by))
+        };
+        let (mut within, mut clear) = (around(0.0), [1.0; 3]);
+        for at in self.places_on(self.way_out(begin, way, reach)) {
+            let to = around(at);
+            for (clear, (from, to)) in clear.iter_mut().zip(within.into_iter().zip(to)) {
+                *clear *= opacities[from.min(to)..from.max(to)].iter().map(|opacity| 1.0 - opacity).product::<f64>();
             }
             within = to;
         }
-        (clear, unsure)
+        let [clear, least, greatest] = clear;
+        (clear, least != clear || greatest != clear)
     }
 
     /// How far light goes within the outermost surface on a way, in volume units, and how far f32 may be off.
