@@ -174,12 +174,12 @@ fn planes_are_in_frames_that_need_them_and_in_no_others() {
     assert_eq!(has(&scene(&[])), (vec![], None, None));
     let beside = [0.2, 0.9, -0.1, 0.9];
     assert_eq!(has(&scene(&[beside])), (vec![], None, Some("none of them cuts anything off the volume".to_owned())));
-    // Of two planes the one that cuts is kept: eight numbers.
+    // Of two planes the one that cuts is kept: twelve numbers.
     let across = [1.0, 0.0, 0.0, 0.0];
-    assert_eq!(has(&scene(&[beside, across])), (vec!["entry.frag", "direction.frag"], Some(32), None));
+    assert_eq!(has(&scene(&[beside, across])), (vec!["entry.frag", "direction.frag"], Some(48), None));
     let mut all = settings(&[beside, across]);
     all.method.planner = false;
-    assert_eq!(has(&read::scene(&all).unwrap()).1, Some(64));
+    assert_eq!(has(&read::scene(&all).unwrap()).1, Some(96));
     all.meshes = vec![MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() }];
     assert_eq!(has(&read::scene(&all).unwrap()).0, ["entry.frag", "direction.frag", "peel.frag"]);
 }

@@ -19,7 +19,6 @@ pub const EFFECT: Feature = Feature {
     constants: |context| if context.has(&EFFECT) { units(context) } else { Vec::new() },
     ..Feature::at(Hook::Sample, "effect", |context| match context.scene.effect {
         Some(_) => Ok(()),
-        None if context.method.loops() => Err("no file of the user's is given".into()),
         None => Err(Why::Untold),
     })
 };

@@ -107,7 +107,8 @@ fn steps_are_slices_of_the_volume_of_the_paper() {
         let Ok(open) = set.open else { continue };
         let mut settings = Settings::default();
         open(&mut settings, PathBuf::from(set.file));
-        assert_eq!(settings.volume.path.as_deref(), Some(Path::new(set.file)));
+        let file = settings.volume.path.as_deref().or(settings.volume.mesh.as_deref());
+        assert_eq!(file, Some(Path::new(set.file)));
         assert!(settings.check().is_ok() && set.step > 0.0 && set.step <= 1.0, "{}", set.name);
     }
     let mut engine = Settings::default();

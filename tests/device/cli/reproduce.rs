@@ -17,13 +17,15 @@ use depthleap::vulkan::Device;
 
 use crate::harness::{Need, Test, data, test};
 
+/// The volumes of these tests. Distances to Lucy's mesh take half a minute to find, and have tests of their own.
+const FILES: [&str; 3] = ["buckyball.nrrd", "ct_head.nrrd", "engine.nrrd"];
+
 pub fn tests() -> Vec<Test> {
     let tests = [
         test("reproduce times its sets and early ray termination", times),
         test("reproduce draws the figures of the single pass", figures),
     ];
-    let files = ["buckyball.nrrd", "ct_head.nrrd", "engine.nrrd"];
-    tests.into_iter().map(|test| files.into_iter().fold(test, |test, file| test.needs(Need::Data(file)))).collect()
+    tests.into_iter().map(|test| FILES.into_iter().fold(test, |test, file| test.needs(Need::Data(file)))).collect()
 }
 
 fn checked(device: &Arc<Device>) -> Checked {
@@ -32,7 +34,11 @@ fn checked(device: &Arc<Device>) -> Checked {
 
 fn times(device: &Arc<Device>) {
     let timing = TimingPlan { sizes: vec![16, 24], directions: 2, repeats: 2, sweep: true };
-    let job = ReproduceJob { data: Some(data("")), parts: vec![Part::Times], quick: false, timing };
+    let folder = tempfile::tempdir().unwrap();
+    for file in FILES {
+        std::os::unix::fs::symlink(data(file), folder.path().join(file)).unwrap();
+    }
+    let job = ReproduceJob { data: Some(folder.path().to_owned()), parts: vec![Part::Times], quick: false, timing };
     let host = Host { open: &|| Ok(checked(device)), close: &|_| Ok(()), say: &|_| {} };
     let counted = job.run(&host).unwrap();
     assert!(counted.columns.iter().all(|(column, _)| column.variants.is_empty() && column.absent.is_some()));
@@ -40,7 +46,7 @@ fn times(device: &Arc<Device>) {
     assert!(counted.timed.clock.is_some());
     for (set, (column, picture)) in RATE_SETS.iter().zip(&counted.timed.rates) {
         assert_eq!(column.name, set.name);
-        assert_eq!(set.open.is_err(), column.absent.is_some(), "{}: {:?}", set.name, column.absent);
+        assert_eq!(FILES.contains(&set.file), column.absent.is_none(), "{}: {:?}", set.name, column.absent);
         let Some(main) = column.variants.first() else { continue };
         assert_eq!(picture.as_ref().map(|picture| picture.size), Some([16; 2]));
         let runs = &main.runs;
@@ -59,8 +65,9 @@ fn times(device: &Arc<Device>) {
 
 fn figures(device: &Arc<Device>) {
     let checked = checked(device);
+    let rows = STEGMAIER.iter().filter(|row| FILES.contains(&row.file));
     let drawn: Vec<(&str, Picture)> =
-        STEGMAIER.iter().filter_map(|row| Some((row.name, picture(&checked, row, row.text.ok()?)))).collect();
+        rows.filter_map(|row| Some((row.name, picture(&checked, row, row.text.ok()?)))).collect();
     for (name, picture) in &drawn {
         let covered = picture.pixels.iter().filter(|pixel| pixel[3] > 0.5).count();
         assert!(covered * 20 > picture.pixels.len(), "{name} shows {covered} pixels");
