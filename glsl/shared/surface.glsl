@@ -26,9 +26,11 @@ int level_of(float value) {
 
 // Within how many surfaces a value is.
 int surfaces_around(float value) {
-    int count = 0;
-    while (count < surface_levels.list.length() && value >= surface_levels.list[count].from) {
-        ++count;
+    // Down from the last one, as above: of a loop that counts up, lavapipe of Mesa 26 makes code that ends the program.
+    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
+        if (value >= surface_levels.list[i].from) {
+            return i + 1;
+        }
     }
-    return count;
+    return 0;
 }
