@@ -1,6 +1,7 @@
 // Surfaces that let something through: a ray meets each of them wherever it crosses its value, from either side, and goes on behind
-// [Stegmaier05 §6]. IN_VOLUME: they stand within the colours of the volume. Twin: src/twin/crossings.rs. Needs frame.glsl, samples.glsl, volume.glsl, surface.glsl, root.glsl,
-// surface_color.glsl, shade.glsl and projection.glsl, and `is_done` of single_pass.glsl.
+// [Stegmaier05 §6]. IN_VOLUME: they stand within the colours of the volume. Twin: src/twin/crossings.rs. Needs frame.glsl,
+// samples.glsl, volume.glsl, surface.glsl, root.glsl, surface_color.glsl, shade.glsl and projection.glsl, and `is_done` of
+// single_pass.glsl.
 //
 // A place lies within as many surfaces as its value has reached, since they rise by their values. A ray crosses one after the other:
 // up through the next, or down through the last.

@@ -14,7 +14,7 @@
 // side is 1 long. Colours are linear.
 struct Sample {
     // Colour, not premultiplied, in light where there are lights, and the opacity for the reference length, above 0; of an iso-surface
-    // the opacity is 1.
+    // it is 1, whatever the opacity of that surface is.
     vec4 color;
     // The value, in the volume's own unit.
     float value;
@@ -41,7 +41,8 @@ struct Sample {
 };
 
 // What the user's file defines: the colour in place of `here.color`, not premultiplied, and the opacity for the reference length, which
-// is cut off at 0 and 1. Opacity 0 is transparent. Of an iso-surface, which is opaque, the colour alone counts.
+// is cut off at 0 and 1. Opacity 0 is transparent. Of an iso-surface, which keeps its own opacity,
+// the colour alone counts.
 vec4 effect(Sample here);
 
 // A vector along the gradient, of which the direction alone counts; 0 where there is none. It costs six interpolated values, or one

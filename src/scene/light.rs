@@ -73,6 +73,14 @@ impl Light {
         }
     }
 
+    /// How far it is from a point to the light; infinite where it is far away.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        match self.place {
+            LightPlace::Direction(_) => f64::INFINITY,
+            LightPlace::Position(light) => light.distance(point),
+        }
+    }
+
     /// Whether it has no colour.
     pub fn is_white(&self) -> bool {
         let white = |[r, g, b]: [f64; 3]| r == g && g == b;

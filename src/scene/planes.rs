@@ -45,6 +45,17 @@ impl Scene {
         if self.settings.method.planner { self.planes.cutting() } else { self.planes.all() }
     }
 
+    /// How far it is from a point along a unit vector until what is kept of the volume is left, or a light at `reach` is reached; volume
+    /// units.
+    pub fn way_out(&self, point: DVec3, way: DVec3, reach: f64) -> f64 {
+        let half = 0.5 * self.field.extent();
+        let faces = (0..3).filter(|axis| way[*axis] != 0.0);
+        let faces = faces.map(|axis| (half[axis].copysign(way[axis]) - point[axis]) / way[axis]);
+        let planes = self.clip_planes().iter().filter(|plane| plane.normal.dot(way) < 0.0);
+        let planes = planes.map(|plane| plane.height(point) / -plane.normal.dot(way));
+        faces.chain(planes).fold(reach, f64::min)
+    }
+
     /// The depths between which `rays.eye + depth * direction` lies inside the volume's box and all clip planes, and beyond the
     /// near plane.
     pub fn interval(&self, rays: &ViewRays, direction: DVec3) -> Option<(f64, f64)> {

@@ -23,7 +23,7 @@ impl Twin<'_> {
         }
         let before = pixel.accumulated;
         let begin = self.stretch_after(pixel, first)[0];
-        let mut front = self.crossed_value(pixel, begin);
+        let mut front = self.value_at(pixel, begin);
         let within = self.around(pixel, front);
         if pixel.section == 0 && within > 0 && !self.saturated(pixel) {
             self.put_surface(pixel, self.as_placed(pixel, begin), within - 1);
@@ -33,11 +33,11 @@ impl Twin<'_> {
             let free = self.free_samples_from(pixel, i);
             if free > 0 {
                 i += free;
-                front = self.crossed_value(pixel, self.stretch_after(pixel, i.min(end - 1))[0]);
+                front = self.value_at(pixel, self.stretch_after(pixel, i.min(end - 1))[0]);
                 continue;
             }
             let stretch = self.stretch_after(pixel, i);
-            let back = self.crossed_value(pixel, stretch[1]);
+            let back = self.value_at(pixel, stretch[1]);
             self.cross_step(pixel, i, stretch, [front, back]);
             front = back;
             i += 1;
@@ -75,11 +75,6 @@ impl Twin<'_> {
         // A surface that is found elsewhere cuts the step elsewhere.
         pixel.rounding += 2.0 * rounding.min(1.0) * whole[3];
         pixel.accumulated = self.projection.blend.apply(pixel.accumulated, part);
-    }
-
-    /// The value by which it is known within how many surfaces a place is.
-    fn crossed_value(&self, pixel: &Pixel, steps: f64) -> RoundedValue {
-        self.value_at(pixel, steps)
     }
 
     /// Within how many surfaces a value is; undecided where f32 may find others.

@@ -6,7 +6,7 @@ use super::Twin;
 use super::surface::RoundedValue;
 use crate::math::interpolate::{nearest, trilinear};
 use crate::projection::surfaces_around;
-use crate::scene::light::{Arriving, Light, LightPlace, LitPoint};
+use crate::scene::light::{Arriving, Light, LitPoint};
 use crate::scene::settings::Filter;
 
 /// What f32 takes from a point between a surface and a light, in parts of the volume's longest side.
@@ -26,10 +26,7 @@ impl Twin<'_> {
     pub(super) fn arriving(&self, light: &Light, point: &LitPoint) -> RoundedArriving {
         let mut all = RoundedArriving { arriving: Arriving::WHOLE, unsure: false, rounding: 0.0 };
         let Some(way) = light.from(point.place) else { return all };
-        let reach = match light.place {
-            LightPlace::Direction(_) => f64::INFINITY,
-            LightPlace::Position(at) => at.distance(point.place),
-        };
+        let reach = light.distance(point.place);
         if let (Some(bias), Some(normal)) = (self.scene.shadow_bias(), point.turned())
             && normal.dot(way) > 0.0
         {
@@ -61,16 +58,6 @@ impl Twin<'_> {
         RoundedValue { value, rounding: self.value_rounding(value, voxel, off) }
     }
 
-    /// How far it is from a point along a unit vector until what is kept of the volume is left, or the light is reached.
-    fn way_out(&self, point: DVec3, way: DVec3, reach: f64) -> f64 {
-        let half = 0.5 * self.scene.field.extent();
-        let faces = (0..3).filter(|axis| way[*axis] != 0.0);
-        let faces = faces.map(|axis| (half[axis].copysign(way[axis]) - point[axis]) / way[axis]);
-        let planes = self.scene.clip_planes().iter().filter(|plane| plane.normal.dot(way) < 0.0);
-        let planes = planes.map(|plane| plane.height(point) / -plane.normal.dot(way));
-        faces.chain(planes).fold(reach, f64::min)
-    }
-
     /// Places a step apart from the begin to the end of a way of that length, without the begin.
     fn places_on(&self, length: f64) -> impl Iterator<Item = f64> + use<> {
         let step = self.step_length();
@@ -89,7 +76,7 @@ impl Twin<'_> {
             [0.0, -sample.rounding, sample.rounding].map(|by| surfaces_around(self.surface_values, sample.value + by))
         };
         let (mut within, mut clear) = (around(0.0), [1.0; 3]);
-        for at in self.places_on(self.way_out(begin, way, reach)) {
+        for at in self.places_on(self.scene.way_out(begin, way, reach)) {
             let to = around(at);
             for (clear, (from, to)) in clear.iter_mut().zip(within.into_iter().zip(to)) {
                 *clear *= opacities[from.min(to)..from.max(to)].iter().map(|opacity| 1.0 - opacity).product::<f64>();
@@ -105,7 +92,7 @@ impl Twin<'_> {
         let [level, _] = self.surface_values[0];
         let (mut inside, mut off, mut from) = (0.0, 0.0, 0.0);
         let mut front = self.value_at_point(begin);
-        for at in self.places_on(self.way_out(begin, way, reach)) {
+        for at in self.places_on(self.scene.way_out(begin, way, reach)) {
             let back = self.value_at_point(begin + at * way);
             let (a, b) = (front.value - level, back.value - level);
             let part = match (a >= 0.0, b >= 0.0) {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::ExactIntegrator;
 use crate::scene::Scene;
-use crate::scene::light::{Arriving, Light, LightPlace, LitPoint};
+use crate::scene::light::{Arriving, Light, LitPoint};
 
 /// A crossing so near to where a way begins is that of the surface there, in parts of the volume's longest side.
 const HERE: f64 = 1e-9;
@@ -14,7 +14,7 @@ impl ExactIntegrator<'_> {
     pub(super) fn arriving(&self, scene: &Scene, light: &Light, point: &LitPoint) -> Arriving {
         let mut arriving = Arriving::WHOLE;
         let Some(way) = light.from(point.place) else { return arriving };
-        let length = self.way_out(scene, light, point.place, way);
+        let length = scene.way_out(point.place, way, light.distance(point.place));
         let surfaces: Vec<_> = scene.surface.iter().flat_map(|surface| &surface.levels).collect();
         let levels: Vec<f64> = surfaces.iter().map(|level| level.values[0]).collect();
         if scene.shadow_bias().is_some() {
@@ -41,19 +41,5 @@ impl ExactIntegrator<'_> {
             (within, from) = (!within, t);
         }
         inside
-    }
-
-    /// How far it is from a point along a unit vector until what is kept of the volume is left, or the light is reached.
-    fn way_out(&self, scene: &Scene, light: &Light, point: DVec3, way: DVec3) -> f64 {
-        let reach = match light.place {
-            LightPlace::Direction(_) => f64::INFINITY,
-            LightPlace::Position(at) => at.distance(point),
-        };
-        let half = 0.5 * self.field.extent();
-        let faces = (0..3).filter(|axis| way[*axis] != 0.0);
-        let faces = faces.map(|axis| (half[axis].copysign(way[axis]) - point[axis]) / way[axis]);
-        let planes = scene.clip_planes().iter().filter(|plane| plane.normal.dot(way) < 0.0);
-        let planes = planes.map(|plane| plane.height(point) / -plane.normal.dot(way));
-        faces.chain(planes).fold(reach, f64::min)
     }
 }
