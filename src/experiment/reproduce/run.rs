@@ -50,7 +50,7 @@ const CHOICES: [OpenChoice; 7] = [
 pub enum Part {
     /// The thesis' tables of fragments
     Counts,
-    /// Frame rates and early ray termination [Stegmaier05]
+    /// Frame rates and early ray termination
     Times,
     /// Pictures like the papers' figures
     Figures,

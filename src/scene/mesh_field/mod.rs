@@ -5,7 +5,7 @@
 //!   voxels: in units of the volume's spacing, which is the same along all axes.
 //! - They are above 0 inside and below 0 outside, so that `surface.iso = 0` shows the mesh and its inside counts as full.
 //! - Those beyond the band are clamped to it. All faces of the volume hold the far end of the band, outside.
-//! - Inside is where the winding number of the mesh is at least 1/2 or at most -1/2 [Jacobson13]: the
+//! - Inside is where the winding number of the mesh is at least 1/2 or at most -1/2 (Jacobson13): the
 //!   way its faces are turned makes no difference as long as it is one way, pieces may cut each other, and holes are closed by
 //!   what the rest of the mesh covers. Where they are closed a distance changes its sign without being 0.
 //! - Triangles without an area have no part in distances.

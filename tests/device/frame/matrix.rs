@@ -148,13 +148,7 @@ impl Runs<'_> {
         let twin = self.stage.twin(&scene, method.papers);
         let undecided = twin.undecided.iter().filter(|undecided| **undecided).count() as u64 - twin.outline;
         self.undecided = self.undecided.max(undecided);
-        // A loop asks after every sample whether the ray has ended, which f32 cannot tell each time.
-        let often = if method.loops() { 2 } else { 1 };
-        let most = often
-            * match projection::of(&scene.settings).ends {
-                Ends::Opaque | Ends::Never(_) => UNDECIDED,
-                Ends::Reached => UNDECIDED_AT_AN_EXTREME,
-            };
+        let most = most_undecided(&scene, method);
         let outline = if scene.polygons.is_empty() { OUTLINE } else { OUTLINE_OF_POLYGONS };
         if undecided > most || twin.outline > outline {
             return Err(format!("{undecided} pixels are undecided, and {} on the outline", twin.outline));
@@ -185,6 +179,20 @@ impl Runs<'_> {
         }
         Ok(())
     }
+}
+
+/// How many pixels a twin of the scene may leave undecided, apart from those on the outline.
+fn most_undecided(scene: &Scene, method: &Method) -> u64 {
+    // A loop asks after every sample whether the ray has ended, and from each surface along the ways of light what they meet; f32
+    // cannot tell each time.
+    let asks = if method.loops() { 2 } else { 1 };
+    let paths = scene.shadow_bias().is_some() || scene.translucency().is_some();
+    let ways = if paths { 1 + scene.lights.len() as u64 } else { 1 };
+    let a_time = match projection::of(&scene.settings).ends {
+        Ends::Opaque | Ends::Never(_) => UNDECIDED,
+        Ends::Reached => UNDECIDED_AT_AN_EXTREME,
+    };
+    asks * ways * a_time
 }
 
 /// How far the plan says that the device's texture unit may be from a twin, which interpolates in f64.
