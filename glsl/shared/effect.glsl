@@ -6,7 +6,7 @@
 // An effect is asked only where the transfer function has given an opacity above 0. It can take what shows away, and cannot show what
 // does not, so that whatever is leapt over stays lossless.
 
-#if !defined(LIT) && !defined(SURFACE)
+#if !defined(LIT) && !defined(SURFACE) && !defined(REFRACTION)
 #include "shared/gradient.glsl"
 #endif
 

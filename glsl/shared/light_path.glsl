@@ -1,6 +1,6 @@
 // What becomes of light on its way to a place of a surface [Stegmaier05 §6]. SHADOWS: surfaces take from it where it crosses them.
 // TRANSLUCENT: it comes through what the outermost surface encloses, the weaker the longer its way in there is. Twin:
-// src/twin/light_path.rs. Needs frame.glsl, samples.glsl, volume.glsl and surface.glsl; with PLANES ray.glsl.
+// src/twin/light_path.rs. Needs frame.glsl, samples.glsl, volume.glsl, surface.glsl and way_out.glsl.
 //
 // Samples lie a step apart along the way from the surface to the light. Between two of them light crosses a surface where the values
 // are on its two sides, at the place that a value which goes evenly has.
@@ -22,23 +22,6 @@ float value_at_point(vec3 point) {
     vec3 voxel = fma(point, frame.inverse_extent[0].xyz, vec3(0.5)) * frame.dims.xyz - 0.5;
     vec3 below = floor(voxel);
     return value_at(Place(below, voxel - below));
-}
-
-// How far it is from a point along a unit vector until the volume is left, or what clip planes keep of it, or the light is reached.
-float way_out(vec3 point, vec3 way, float reach) {
-    vec3 faces = mix(vec3(-0.5), vec3(0.5), greaterThan(way, vec3(0.0))) * frame.extent[0].xyz;
-    vec3 leaves = mix((faces - point) / way, vec3(UNBOUNDED), equal(way, vec3(0.0)));
-    float out_at = min(min(leaves.x, leaves.y), min(leaves.z, reach));
-#ifdef PLANES
-    for (uint i = 0u; i < clip_planes.planes.length(); ++i) {
-        vec4 plane = clip_planes.planes[i].plane;
-        float rise = dot(plane.xyz, way);
-        if (rise < 0.0) {
-            out_at = min(out_at, (dot(plane.xyz, point) + plane.w) / -rise);
-        }
-    }
-#endif
-    return out_at;
 }
 
 #ifdef SHADOWS

@@ -26,6 +26,13 @@ struct Ray {
     float steps;
     // Samples on the ray; of a part of a ray one past its last.
     uint samples;
+#ifdef REFRACTION
+    // Where the ray has bent last, in steps from the entry point: `entry`, `whole` and `part` are of that place. Whether it has. The
+    // index of refraction along its direction.
+    float anchor;
+    bool bent;
+    vec3 momentum;
+#endif
 #ifdef LAYERS
     // The part of the ray that is drawn, in steps; its first sample; samples on the whole ray.
     float begin;
@@ -87,23 +94,40 @@ void cut(inout Ray ray) {
 }
 #endif
 
-// A ray from the entry point (texture coordinates) along `unit`, a unit vector in volume space with the ray's length in w.
-Ray ray_along(vec3 begin, vec4 unit) {
-    Ray ray;
-    ray.direction = unit.xyz;
-    ray.entry = begin;
+// Sets how far a ray along a unit vector of volume space comes in a step.
+void stride_along(inout Ray ray, vec3 unit) {
     for (int axis = 0; axis < 3; ++axis) {
         vec2 stride = df_multiply(vec2(unit[axis], 0.0), vec2(frame.voxel_step[0][axis], frame.voxel_step[1][axis]));
         ray.stride_high[axis] = leading(stride.x, STRIDE_CLEARED);
         ray.stride_middle[axis] = leading(stride.x - ray.stride_high[axis], STRIDE_CLEARED);
         ray.stride_rest[axis] = ((stride.x - ray.stride_high[axis]) - ray.stride_middle[axis]) + stride.y;
         ray.step_vector[axis] = stride.x / frame.dims[axis];
+    }
+}
+
+// Samples on a ray that is so many steps long.
+uint samples_on(float steps) {
+    return LAST_NONE ? uint(steps) : uint(max(ceil(steps - frame.offset), 0.0));
+}
+
+// A ray from the entry point (texture coordinates) along `unit`, a unit vector in volume space with the ray's length in w.
+Ray ray_along(vec3 begin, vec4 unit) {
+    Ray ray;
+    ray.direction = unit.xyz;
+    ray.entry = begin;
+    stride_along(ray, unit.xyz);
+    for (int axis = 0; axis < 3; ++axis) {
         vec2 first = df_add(two_product(ray.entry[axis], frame.dims[axis]), vec2(-0.5, 0.0));
         ray.whole[axis] = floor(first.x);
         ray.part[axis] = (first.x - ray.whole[axis]) + first.y;
     }
     ray.steps = unit.w * frame.inverse_step;
-    ray.samples = LAST_NONE ? uint(ray.steps) : uint(max(ceil(ray.steps - frame.offset), 0.0));
+    ray.samples = samples_on(ray.steps);
+#ifdef REFRACTION
+    ray.anchor = 0.0;
+    ray.bent = false;
+    ray.momentum = unit.xyz;
+#endif
 #ifdef LAYERS
     cut(ray);
 #endif
@@ -179,9 +203,18 @@ float steps_to(uint i) {
     return float(i) + frame.offset;
 }
 
+// Steps from where the ray has bent last, of a place so many steps from the entry point.
+float from_anchor(Ray ray, float steps) {
+#ifdef REFRACTION
+    return steps - ray.anchor;
+#else
+    return steps;
+#endif
+}
+
 // Texture coordinates `steps` from the entry point, rounded to some 2^-24 of the volume.
 vec3 position_at(Ray ray, float steps) {
-    return fma(vec3(steps), ray.step_vector, ray.entry);
+    return fma(vec3(from_anchor(ray, steps)), ray.step_vector, ray.entry);
 }
 
 // A point by the voxel below it on each axis and its distance from there, in voxels from voxel centre to voxel centre.
@@ -193,7 +226,7 @@ struct Place {
 // The place `distance` steps from the entry point, for a sample to some 2^-22 voxels, wherever in the volume: whole voxels are
 // kept apart, so that the weights keep their digits.
 Place place_at(Ray ray, float distance) {
-    vec3 steps = vec3(distance);
+    vec3 steps = vec3(from_anchor(ray, distance));
     vec3 way = steps * ray.stride_high;
     vec3 way_whole = floor(way);
     vec3 rest = steps * ray.stride_middle + steps * ray.stride_rest;

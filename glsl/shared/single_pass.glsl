@@ -24,11 +24,20 @@
 #elif !defined(VALUES)
 #include "shared/transfer.glsl"
 #endif
-#if defined(LIT) || defined(SURFACE) && !defined(SHOWS_POSITION)
+#if defined(LIT) || defined(REFRACTION) || defined(SURFACE) && !defined(SHOWS_POSITION)
 #include "shared/gradient.glsl"
 #endif
 #ifdef SURFACE
 #include "shared/surface.glsl"
+#endif
+#if defined(SHADOWS) || defined(TRANSLUCENT) || defined(REFRACTION)
+#include "shared/way_out.glsl"
+#endif
+#ifdef REFRACTION
+#include "shared/refraction.glsl"
+#endif
+#ifdef BACKDROP
+#include "shared/backdrop.glsl"
 #endif
 #if defined(SHADOWS) || defined(TRANSLUCENT)
 #include "shared/light_path.glsl"
@@ -92,10 +101,13 @@ bool take_step(Ray ray, uint i, inout vec4 held) {
 }
 #endif
 
-// Samples of the ray from its first one on, joined with what it holds already.
-vec4 cast_ray(Ray ray, vec4 held) {
+// Samples of the ray from its first one on, joined with what it holds already; the ray ends where it has bent last.
+vec4 gather(inout Ray ray, vec4 held) {
     uint i = first_sample(ray);
     bool done = is_done(held);
+#ifdef REFRACTION
+    begin_bending(ray);
+#endif
 #if defined(TRANSPARENT)
 #ifndef GOES_ON
     if (!done && i < ray.samples) {
@@ -130,6 +142,11 @@ vec4 cast_ray(Ray ray, vec4 held) {
         float front = node_at(ray, i);
 #endif
         for (; !done && i < end; ++i) {
+#ifdef REFRACTION
+            bend(ray, i);
+            // It may leave the volume sooner; where it does so later, the loop around goes on.
+            end = min(end, max(ray.samples, i + 1u));
+#endif
 #if defined(TRANSPARENT)
             cross_step(ray, i, front, held);
             done = is_done(held);
@@ -144,5 +161,20 @@ vec4 cast_ray(Ray ray, vec4 held) {
 #endif
         }
     }
+    return held;
+}
+
+// The picture of the ray, with what it holds already.
+vec4 cast_ray(Ray ray, vec4 held) {
+    held = gather(ray, held);
+#ifdef BACKDROP
+#ifdef REFRACTION
+    // One that has ended early goes on straight.
+    vec3 behind = ray.bent ? backdrop_met((ray.entry - 0.5) * frame.extent[0].xyz, ray.direction) : backdrop_straight(this_pixel());
+#else
+    vec3 behind = backdrop_straight(this_pixel());
+#endif
+    held = joined(held, vec4(behind, 1.0));
+#endif
     return held;
 }

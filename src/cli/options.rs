@@ -89,7 +89,8 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
 }
 
 /// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes, of its
-/// clip meshes, of its clip planes and of its lights, whether it has an environment, and its effect.
+/// clip meshes, of its clip planes and of its lights, whether it has an environment and a background, whether it
+/// refracts, and its effect.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
     let file = volume
@@ -120,9 +121,12 @@ pub fn scene_name(settings: &Settings) -> String {
     let lights = number(settings.lights.len(), "a light", "lights");
     let environment = settings.environment.image.is_some() || settings.environment.builtin.is_some();
     let around = environment.then(|| "an environment".to_owned());
+    let refracts = settings.effects.refraction.is_some().then(|| "refraction".to_owned());
+    let behind = settings.effects.background.is_some().then(|| "a background".to_owned());
     let effect = settings.effects.file.as_deref().and_then(Path::file_stem);
     let effect = effect.map(|stem| format!("the effect {}", stem.to_string_lossy()));
-    let geometry: Vec<String> = [meshes, clips, planes, lights, around, effect].into_iter().flatten().collect();
+    let geometry: Vec<String> =
+        [meshes, clips, planes, lights, around, refracts, behind, effect].into_iter().flatten().collect();
     let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.
     let volume = file.unwrap_or_else(built_in);

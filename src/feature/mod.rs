@@ -4,6 +4,7 @@
 //! its hook with its f64 twin, and scenes that need it and do not need it in `tests/matrix/scenes.rs`, which a test asks for.
 
 mod apart;
+pub mod backdrop;
 mod block_ranges;
 mod classification;
 mod colors;
@@ -25,11 +26,13 @@ mod opacity_correction;
 mod planes;
 mod preintegration;
 mod reasons;
+pub mod refraction;
 mod start;
 pub mod surface;
 mod transfer_function;
 
 pub use apart::APART;
+pub use backdrop::{BACKDROP, BACKDROP_PICTURE};
 pub use block_ranges::BLOCK_RANGES;
 pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
@@ -38,6 +41,7 @@ pub use early_ends::{EARLY_ENDS, may_end};
 pub use effect::EFFECT;
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
+pub use refraction::REFRACTION;
 pub use start::START;
 pub use surface::{ISO_SURFACE, SURFACES_IN_VOLUME, TRANSPARENT_SURFACES};
 
@@ -62,7 +66,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 37] = [
+pub const FEATURES: [&Feature; 40] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -100,6 +104,9 @@ pub const FEATURES: [&Feature; 37] = [
     &SHADOWS,
     &TRANSLUCENCY,
     &EFFECT,
+    &REFRACTION,
+    &BACKDROP,
+    &BACKDROP_PICTURE,
 ];
 
 fn at(hook: Hook) -> impl Iterator<Item = &'static Feature> {

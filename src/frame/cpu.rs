@@ -9,7 +9,7 @@ use crate::plan::Plan;
 use crate::projection::{self, surface_values};
 use crate::scene::Scene;
 use crate::scene::texture::{TextureChoice, TextureMap};
-use crate::twin::{Effect, MetSurface, Pixel, Twin};
+use crate::twin::{Effect, LeavingRay, MetSurface, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct CpuFrame {
     pub pixels: Vec<[f64; 4]>,
     /// The iso-surface that each ray has met.
     pub surfaces: Vec<Option<MetSurface>>,
+    /// Where each ray that has bent leaves the volume.
+    pub leaves: Vec<Option<LeavingRay>>,
     /// How far f32 may be from each pixel, beyond what it takes from sums of samples.
     pub rounding: Vec<f64>,
     /// Pixels that f32 cannot decide (see [`Pixel::undecided`]), or the rasteriser.
@@ -126,6 +128,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     for (row, of_row) in rows {
         frame.pixels.extend(row.pixels);
         frame.surfaces.extend(row.surfaces);
+        frame.leaves.extend(row.leaves);
         frame.rounding.extend(row.rounding);
         frame.undecided.extend(row.undecided);
         frame.outline += row.outline;
@@ -141,6 +144,7 @@ impl CpuFrame {
         Self {
             pixels: Vec::new(),
             surfaces: Vec::new(),
+            leaves: Vec::new(),
             rounding: Vec::new(),
             undecided: Vec::new(),
             outline: 0,
@@ -190,6 +194,7 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         let on_outline = hits.undecided();
         frame.pixels.push(pixel.accumulated);
         frame.surfaces.push(pixel.surface);
+        frame.leaves.push(pixel.leaves);
         frame.rounding.push(pixel.rounding);
         frame.undecided.push(pixel.undecided || on_outline);
         frame.outline += u64::from(on_outline);

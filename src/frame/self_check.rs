@@ -169,6 +169,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
         surface: None,
         lights,
         environment: None,
+        backdrop: None,
         effect: None,
         unit,
     })

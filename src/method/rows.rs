@@ -3,14 +3,15 @@
 use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
-use crate::feature::{light_paths, surface};
+use crate::feature::{BACKDROP, light_paths, refraction, surface};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
 use crate::part::rows::{Ahead, Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{
-    alive, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel, start,
+    alive, backdrop, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel,
+    start,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark};
@@ -50,6 +51,7 @@ pub const RAY_CASTER: Method = Method {
 fn takes_in_passes(scene: &Scene) -> Result<()> {
     surface::check_opaque(scene)?;
     light_paths::check_passes(scene)?;
+    refraction::check_passes(scene)?;
     without_effect(scene)
 }
 
@@ -99,6 +101,9 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
     if context.passes > 0 && !context.method.loops() {
         begin(context, steps);
     }
+    // A loop that computes goes through pixels beside the box as well.
+    let beside = context.passes == 0 || context.method.traversal != Traversal::ComputeLoop;
+    steps.extend((beside && context.has(&BACKDROP)).then(|| backdrop::backdrop(context)));
     let guards = peel(context, steps);
     let first = first_section(context);
     steps.enter(0, None);

@@ -3,6 +3,7 @@
 //! Files here do not import each other; what they share is a formula or a named resource.
 
 pub mod alive;
+pub mod backdrop;
 pub mod block_skip;
 pub mod build;
 pub mod clear;

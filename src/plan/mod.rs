@@ -159,13 +159,15 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::light_paths::check(scene)?;
     feature::environment::check(scene)?;
     feature::effect::check(scene)?;
+    feature::refraction::check(scene)?;
+    feature::backdrop::check(scene)?;
     feature::gradients::check(scene)?;
     let view = View::new(scene)?;
     let passes = passes(scene, &view, method);
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
-        0 if !scene.polygons.show() || view.region.pixels() == 0 => {
+        0 if scene.backdrop.is_none() && !scene.polygons.show() || view.region.pixels() == 0 => {
             (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")])
         }
         _ => (frame(&context), left_out(&context)),

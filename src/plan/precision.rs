@@ -24,8 +24,8 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if let Some(values) = &projection::of(&scene.settings).values {
         return value_error(scene, values, error, samples, passes);
     }
-    if scene.effect.is_some() {
-        // Nobody knows what it makes of a difference.
+    if scene.effect.is_some() || scene.settings.effects.refraction.is_some() {
+        // Nobody knows what an effect, or a ray that bends elsewhere, makes of a difference.
         return if error == 0.0 { 0.0 } else { f64::INFINITY };
     }
     if scene.surface.is_some() || !scene.lights.is_empty() {

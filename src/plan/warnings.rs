@@ -48,7 +48,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
 /// Why nothing can show, where that is certain.
 fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     let field = &scene.field;
-    if scene.polygons.show() {
+    if scene.polygons.show() || scene.backdrop.is_some() {
         return None;
     }
     if plan.passes == 0 {

@@ -2,6 +2,7 @@
 //! surface.
 
 use super::{of, surface_values};
+use crate::scene::RefractiveIndex;
 use crate::scene::texture::TextureMap;
 use crate::scene::{Scene, TransferFunction};
 
@@ -33,7 +34,7 @@ impl Shown {
             Some(values) => Self { visible: None, within: (values.counting)(&projection.levels(scene, map)) },
             None => Self {
                 visible: (scene.surface.is_none() || scene.surfaces_in_volume()).then(colors),
-                within: on_surfaces(scene, map),
+                within: on_surfaces(scene, map).into_iter().chain(bending(scene, map)).collect(),
             },
         }
     }
@@ -68,6 +69,14 @@ fn on_surfaces(scene: &Scene, map: TextureMap) -> Vec<[f64; 2]> {
         values.iter_mut().for_each(|[from, to]| *to = *from);
     }
     apart(values)
+}
+
+/// The values at which rays bend, which no ray may leap over; no surfaces are beside these.
+fn bending(scene: &Scene, map: TextureMap) -> Vec<[f64; 2]> {
+    let slack = scene.value_slack() * map.scale.abs();
+    let index = RefractiveIndex::of(scene, map);
+    let changing = index.map_or_else(Vec::new, |index| index.changing());
+    apart(changing.into_iter().map(|[from, to]| [from - slack, to + slack]).collect())
 }
 
 /// Intervals that rise, those that meet joined.

@@ -5,6 +5,7 @@
 //!
 //! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
+mod backdrop;
 mod effect;
 mod environment;
 mod exr_header;
@@ -24,6 +25,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+pub use backdrop::backdrop;
 pub use effect::effect;
 pub use environment::environment;
 pub use mesh::mesh;

@@ -119,6 +119,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let camera = camera.in_axes_of(volume.turn);
     let polygons = Arc::new(polygons(settings, volume.turn)?);
     let environment = super::environment(&settings.environment, &polygons, volume.turn)?.map(Arc::new);
+    let backdrop = super::backdrop(&settings.effects)?.map(Arc::new);
     let back = volume.turn.inverse();
     let field = Field::of(volume, &settings.volume.normalisation())?;
     let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
@@ -129,7 +130,20 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let (mut settings, field) = (settings.clone(), Arc::new(field));
     settings.effects.hash = effect.as_ref().map(|effect| effect.hash.clone());
     let unit = TextureUnit::default();
-    Ok(Scene { settings, field, transfer, camera, polygons, planes, surface, lights, environment, effect, unit })
+    Ok(Scene {
+        settings,
+        field,
+        transfer,
+        camera,
+        polygons,
+        planes,
+        surface,
+        lights,
+        environment,
+        backdrop,
+        effect,
+        unit,
+    })
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.

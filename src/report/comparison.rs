@@ -42,8 +42,7 @@ pub fn comparable(a: &Run, b: &Run) -> bool {
             == (&t.volume, &t.transfer, &t.camera, &t.image, &t.projection, &t.sampling)
         && (&s.meshes, &s.clips, s.layers.most) == (&t.meshes, &t.clips, t.layers.most)
         && (&s.surface, &s.lights, &s.shading) == (&t.surface, &t.lights, &t.shading)
-        && s.environment == t.environment
-        && a.effect == b.effect
+        && (&s.environment, &s.effects, &a.effect) == (&t.environment, &t.effects, &b.effect)
 }
 
 /// The method with the switches that change its counts.

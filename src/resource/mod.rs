@@ -9,6 +9,7 @@ mod frame;
 mod gradients;
 mod layers;
 mod look;
+mod refraction;
 mod structure;
 mod surface;
 pub mod texels;
@@ -20,6 +21,7 @@ pub use layers::{
     CLIP_WINDING, LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES,
 };
 pub use look::{AXIS, GREY_TRANSFER, HOLES, PREINTEGRATED, TRANSFER, VOLUME};
+pub use refraction::{BACKDROP, REFRACTIVE_INDEX};
 pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
     SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
@@ -29,7 +31,7 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 46] = [
+pub const RESOURCES: [Resource; 48] = [
     BOX,
     FRAME,
     CLIP_PLANES,
@@ -54,6 +56,8 @@ pub const RESOURCES: [Resource; 46] = [
     WHITE_LIGHTS,
     ENVIRONMENT,
     ENVIRONMENT_PLACE,
+    REFRACTIVE_INDEX,
+    BACKDROP,
     VOLUME,
     HOLES,
     GRADIENTS,

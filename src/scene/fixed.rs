@@ -24,6 +24,12 @@ pub fn optional_lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: u
     lists.map(|lists| lists.into_iter().map(exactly).collect()).transpose()
 }
 
+/// Any number of lists of exactly `N` entries.
+pub fn lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(from: D) -> Result<Vec<[T; N]>, D::Error> {
+    let lists: Vec<Vec<T>> = Vec::deserialize(from)?;
+    lists.into_iter().map(exactly).collect()
+}
+
 fn exactly<T, E: Error, const N: usize>(entries: Vec<T>) -> Result<[T; N], E> {
     let count = entries.len();
     entries.try_into().map_err(|_| E::custom(format!("{count} entries where there have to be {N}")))

@@ -1,5 +1,6 @@
 //! What is to be seen, and by which method: volume, transfer function, camera, sampling, settings. Knows no Vulkan.
 
+pub mod backdrop;
 pub mod builtin;
 pub mod camera;
 pub mod effect;
@@ -18,6 +19,7 @@ pub mod method;
 pub mod planes;
 pub mod projection;
 pub mod range;
+pub mod refraction;
 pub mod region;
 pub mod scenes;
 pub mod settings;
@@ -31,6 +33,7 @@ mod volume_choice;
 
 use std::sync::Arc;
 
+pub use backdrop::Backdrop;
 pub use camera::Camera;
 pub use effect::Effect;
 pub use environment::Environment;
@@ -38,6 +41,7 @@ pub use field::Field;
 pub use light::Light;
 pub use mesh::Polygons;
 pub use planes::ClipPlanes;
+pub use refraction::RefractiveIndex;
 pub use region::Region;
 pub use settings::Settings;
 pub use surface::Surface;
@@ -62,6 +66,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// What the iso-surfaces reflect.
     pub environment: Option<Arc<Environment>>,
+    /// What is behind the volume.
+    pub backdrop: Option<Arc<Backdrop>>,
     /// What the user's own GLSL makes of samples and surfaces.
     pub effect: Option<Arc<Effect>>,
     /// What is known of the texture unit that interpolates, where the scene asks for one.

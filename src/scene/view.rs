@@ -61,11 +61,11 @@ impl View {
         };
         let (front, back) = (project(true), project(false));
         representable(scene, &rays, [&front, &back])?;
+        let whole = Region { x: 0, y: 0, width: size[0], height: size[1] };
         let region = match covered(&front, size).with(covered_by_polygons(scene, &rays, size)) {
-            // Without the planner targets are as large as the picture.
-            Region { width: 1.., .. } if !scene.settings.method.planner => {
-                Region { x: 0, y: 0, width: size[0], height: size[1] }
-            }
+            // What is behind the volume shows everywhere; without the planner targets are as large as the picture.
+            _ if scene.backdrop.is_some() => whole,
+            Region { width: 1.., .. } if !scene.settings.method.planner => whole,
             region => region,
         };
         let longest_samples = longest_samples(scene, &rays, region);

@@ -4,6 +4,7 @@ mod bundle;
 mod environment;
 mod planes;
 mod polygons;
+mod refraction;
 mod slice;
 mod surface;
 
@@ -11,6 +12,7 @@ pub use bundle::Bundle;
 pub use environment::environment_rows;
 pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
+pub use refraction::index_pieces;
 pub use slice::Slice;
 pub use surface::{SurfaceLevel, light_rows, surface_levels};
 

@@ -28,7 +28,7 @@ impl Twin<'_> {
     }
 
     /// Differences of x a voxel to each side over the way between the two, over the finest spacing.
-    fn central_differences(&self, voxel: DVec3) -> (DVec3, DVec3) {
+    pub(super) fn central_differences(&self, voxel: DVec3) -> (DVec3, DVec3) {
         let field = &self.scene.field;
         let value = |voxel: DVec3| match self.scene.settings.sampling.filter {
             Filter::Nearest => nearest(&field.values, field.dims(), voxel),

@@ -1,5 +1,6 @@
 //! The f64 reference: a twin of every pass and of what passes share, under the same stem as in `glsl`.
 
+pub mod backdrop;
 pub mod block_skip;
 pub mod clip_begin;
 pub mod clip_winding;
@@ -16,6 +17,7 @@ pub mod main_pass;
 pub mod near_neighbor;
 pub mod peel;
 pub mod phong;
+mod refraction;
 pub mod samples;
 pub mod section;
 pub mod segment;
@@ -23,6 +25,8 @@ pub mod single_pass;
 pub mod start;
 pub mod surface;
 pub mod termination;
+
+pub use refraction::LeavingRay;
 
 use glam::DVec3;
 
@@ -97,6 +101,14 @@ pub struct Pixel {
     /// DIR: unit direction and length, volume space.
     pub direction: DVec3,
     pub length: f64,
+    /// Steps from where the ray enters to where it has bent last, which ENTRY has then, as DIR has its direction there and the length of
+    /// all of it; whether it has bent.
+    pub anchor: f64,
+    pub bent: bool,
+    /// The index of refraction along the direction.
+    pub momentum: DVec3,
+    /// Where a ray that has bent leaves the volume.
+    pub leaves: Option<LeavingRay>,
     /// RES, premultiplied RGBA.
     pub accumulated: [f64; 4],
     /// RES of rays that look for a surface: steps to the places between which they meet it, 0, and 1 where there is one.

@@ -51,7 +51,7 @@ impl Twin<'_> {
 
     /// Texture coordinates `steps` from the entry point.
     pub fn position_at(&self, pixel: &Pixel, steps: f64) -> DVec3 {
-        pixel.entry + pixel.direction / self.scene.field.extent() * (steps * self.step_length())
+        pixel.entry + pixel.direction / self.scene.field.extent() * ((steps - pixel.anchor) * self.step_length())
     }
 
     /// Position of sample `i`, texture coordinates.

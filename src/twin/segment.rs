@@ -62,7 +62,7 @@ impl Twin<'_> {
     }
 
     /// Whether `voxel` lies in a cell that has no values.
-    fn in_hole(&self, voxel: DVec3) -> bool {
+    pub(super) fn in_hole(&self, voxel: DVec3) -> bool {
         let field = &self.scene.field;
         let ([nx, ny, _], [x, y, z]) = (field.cells(), field.cell_at(voxel));
         field.holes.as_ref().is_some_and(|holes| holes[(z * ny + y) * nx + x])

@@ -3,8 +3,10 @@
 //! Leaps are those of `glsl/shared/distance.glsl` and `visible_block.glsl`. They leave out samples that show nothing, so that it does not matter to the pixel
 //! how far f32 leaps.
 
-use super::{Effect, Pixel, Twin, direction, entry, start};
+use super::{Effect, Pixel, Twin, backdrop, direction, entry, start};
 use crate::math::ray::cut_interval;
+use crate::scene::RefractiveIndex;
+use crate::scene::texture::TextureMap;
 
 /// Joins all samples of the part of the ray that is drawn with what the pixel has already.
 pub fn single_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
@@ -15,8 +17,15 @@ pub fn single_pass(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     if pixel.section == 0 && twin.projection.shows_values() {
         start::start(twin, pixel, pass);
     }
+    if twin.scene.backdrop.is_some() {
+        // A ray begins empty, and what is behind it comes last.
+        pixel.accumulated = [0.0; 4];
+    }
     let before = pixel.accumulated;
-    let effect = twin.cast_ray(pixel);
+    let effect = match RefractiveIndex::of(twin.scene, TextureMap::IDENTITY) {
+        Some(index) => twin.bending_ray(pixel, &index),
+        None => twin.straight_ray(pixel),
+    };
     match twin.projection.shows_values() && pixel.accumulated != before {
         true => Effect::Contributed,
         false => effect,
@@ -36,10 +45,17 @@ pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
         cut_interval(rays.eye, direction, half, rays.near, scene.clip_planes()).is_some()
     };
     pixel.undecided |= meets(BOX_ROUNDING) != meets(-BOX_ROUNDING);
-    if meets(0.0) { single_pass(twin, pixel, pass) } else { Effect::Silent }
+    if meets(0.0) { single_pass(twin, pixel, pass) } else { backdrop::backdrop(twin, pixel, pass) }
 }
 
 impl Twin<'_> {
+    /// Joins what a straight ray gathers, and what is behind the volume.
+    fn straight_ray(&self, pixel: &mut Pixel) -> Effect {
+        let effect = self.cast_ray(pixel);
+        self.show_backdrop(pixel);
+        effect
+    }
+
     fn cast_ray(&self, pixel: &mut Pixel) -> Effect {
         if self.scene.sees_through_surfaces() {
             return self.crossings_on_ray(pixel);

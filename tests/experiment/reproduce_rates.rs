@@ -216,6 +216,6 @@ fn json_comes_back_and_older_results_have_no_times() {
 #[test]
 fn early_termination_is_timed_with_the_transfer_function_of_the_figure() {
     let figure = STEGMAIER.iter().find(|figure| figure.name == "stegmaier-5-volume").unwrap();
-    let settings = read::settings_of(figure.name, figure.text.unwrap(), Path::new("")).unwrap();
+    let settings = read::settings_of(figure.name, figure.text, Path::new("")).unwrap();
     assert_eq!(settings.transfer.points.as_deref(), Some(&SEMI_TRANSPARENT[..]));
 }

@@ -15,8 +15,8 @@ use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last,
-    LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Settings, ShadingSettings, Shows,
-    SurfaceLevel, Translucency, VolumeTexture,
+    LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Refraction, Settings, ShadingSettings,
+    Shows, SurfaceLevel, Translucency, VolumeTexture,
 };
 use depthleap::scene::{Camera, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
@@ -27,7 +27,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 62] = [
+const KINDS: [(&str, Change); 67] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -215,7 +215,31 @@ const KINDS: [(&str, Change); 62] = [
         (s.meshes, s.sampling.classification) = (vec![across(0.5)], Classification::PreIntegrated);
         s.sampling.last = Last::Partial;
     }),
+    ("rays that bend in front of a checker", |s| {
+        s.effects.refraction = index(&[[0.25, 1.0], [1.0, 1.3]]);
+        (s.effects.background, s.effects.background_squares) = (Some("checker".into()), 5.0);
+    }),
+    ("rays that bend in light, cut by a plane", |s| {
+        (s.effects.refraction, s.lights) = (index(&[[0.3, 1.0], [0.7, 0.8], [1.0, 1.2]]), two_lights());
+        (s.clips, s.sampling.last) = (vec![plane([1.0, 0.2, 0.1, 0.15])], Last::Partial);
+        s.sampling.offset = Offset::Midpoint;
+    }),
+    ("rays that bend, steps classified as a whole", |s| {
+        s.effects.refraction = index(&[[0.25, 1.0], [1.0, 1.3]]);
+        (s.sampling.classification, s.sampling.step) = (Classification::PreIntegrated, 1.7);
+    }),
+    ("an index of refraction that is the same everywhere, nothing left out", |s| {
+        (s.effects.refraction, s.method.planner) = (index(&[[0.0, 1.2], [1.0, 1.2]]), false);
+    }),
+    ("an iso-surface in front of a checker", |s| {
+        (s.surface.iso, s.effects.background) = (Some(90.0), Some("checker".into()));
+        s.effects.background_squares = 5.0;
+    }),
 ];
+
+fn index(points: &[[f64; 2]]) -> Option<Refraction> {
+    Some(Refraction { points: points.to_vec() })
+}
 
 /// Opacity that comes and goes at once, so that a value that is off shows.
 const JUMPS: [[f64; 5]; 5] = [

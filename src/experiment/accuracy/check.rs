@@ -48,6 +48,13 @@ pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
         let problem = format!("is {}, of whose colours no exact integral is known", effect.file());
         return Err(Error::usage("effects.file (--effect)", problem, "leave it out"));
     }
+    if scene.settings.effects.refraction.is_some() || scene.backdrop.is_some() {
+        return Err(Error::usage(
+            "effects.refraction, effects.background (--refraction, --behind)",
+            "bend rays, or show what is behind the volume, and the exact integral goes straight to where the volume ends",
+            "leave them out, or use render and bench",
+        ));
+    }
     if scene.surface.is_none() && !scene.lights.is_empty() {
         let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
         return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));

@@ -37,14 +37,14 @@ pub fn draw(checked: Option<&Checked>, data: DataFolder, host: &Host) -> Result<
 /// Whether there is the volume of any figure that can be drawn.
 pub fn any_volume(data: DataFolder) -> bool {
     let forms = scenes::ALL.iter().flat_map(|row| row.on_data).map(|form| form.file);
-    let figures = scenes::STEGMAIER.iter().filter(|row| row.text.is_ok()).map(|row| row.file);
+    let figures = scenes::STEGMAIER.iter().map(|row| row.file);
     forms.chain(figures).any(|file| data.volume(file).is_ok())
 }
 
 /// A form of a built-in scene, as the figure that it is.
 fn of_scene(row: &BuiltinScene, form: &SceneOnData) -> PaperFigure {
     let SceneOnData { name, about, file, text } = *form;
-    PaperFigure { name, about, source: row.source, file, text: Ok(text) }
+    PaperFigure { name, about, source: row.source, file, text }
 }
 
 fn built_in(checked: Option<&Checked>, row: &BuiltinScene, data: DataFolder, host: &Host) -> Result<DrawnFigure> {
@@ -64,14 +64,10 @@ fn built_in(checked: Option<&Checked>, row: &BuiltinScene, data: DataFolder, hos
 fn on_data(checked: Option<&Checked>, row: &PaperFigure, data: DataFolder, host: &Host) -> Result<DrawnFigure> {
     let figure = record(row.name, row.about, row.source);
     let absent = |why: String| Ok((FigureRecord { absent: Some(why), ..figure.clone() }, None));
-    let text = match row.text {
-        Ok(text) => text,
-        Err(why) => return absent(why.to_owned()),
-    };
     match (checked, data.volume(row.file)) {
         (Some(checked), Ok(path)) => {
             let figure = FigureRecord { file: Some(path.display().to_string()), ..figure };
-            let settings = read::settings_of(row.file, text, data.folder.unwrap_or(Path::new("")))?;
+            let settings = read::settings_of(row.file, row.text, data.folder.unwrap_or(Path::new("")))?;
             drawn(checked, figure, &settings, host)
         }
         (_, found) => absent(found.err().unwrap_or_else(|| "no device was opened".to_owned())),

@@ -1,6 +1,4 @@
 //! Figures of [Stegmaier05] on volumes of the user's: bucky ball, engine and Lucy, by its single pass.
-//!
-//! **To draw one that cannot be drawn yet**: its text in place of the reason, in its row of [`STEGMAIER`].
 
 /// A figure of a paper, on a volume that is a file.
 #[derive(Clone, Copy, Debug)]
@@ -13,31 +11,26 @@ pub struct PaperFigure {
     pub source: &'static str,
     /// The volume or the mesh, as the text names it.
     pub file: &'static str,
-    /// The text of its scene file, which stands beside the volume; or why this program cannot draw it.
-    pub text: Result<&'static str, &'static str>,
+    /// The text of its scene file, which stands beside the volume.
+    pub text: &'static str,
 }
 
 /// The text of a scene file, of parts that stand in the folder `stegmaier`.
 macro_rules! parts {
     ($($part:literal),*) => {
-        Ok(concat!($(include_str!(concat!("stegmaier/", $part, ".toml"))),*))
+        concat!($(include_str!(concat!("stegmaier/", $part, ".toml"))),*)
     };
 }
 
-const fn bucky(name: &'static str, about: &'static str, text: Result<&'static str, &'static str>) -> PaperFigure {
+const fn bucky(name: &'static str, about: &'static str, text: &'static str) -> PaperFigure {
     PaperFigure { name, about, source: "Stegmaier05, Figure 7", file: "buckyball.nrrd", text }
 }
 
-const fn lucy(name: &'static str, about: &'static str, text: Result<&'static str, &'static str>) -> PaperFigure {
+const fn lucy(name: &'static str, about: &'static str, text: &'static str) -> PaperFigure {
     PaperFigure { name, about, source: "Stegmaier05, Figure 1", file: "lucy_decimated.ply", text }
 }
 
-const fn engine(
-    name: &'static str,
-    source: &'static str,
-    about: &'static str,
-    text: Result<&'static str, &'static str>,
-) -> PaperFigure {
+const fn engine(name: &'static str, source: &'static str, about: &'static str, text: &'static str) -> PaperFigure {
     PaperFigure { name, about, source, file: "engine.nrrd", text }
 }
 
@@ -56,7 +49,7 @@ pub const STEGMAIER: [PaperFigure; 19] = [
     lucy(
         "stegmaier-1-lucy-refracting",
         "a statue that refracts what is behind it",
-        Err("this program draws no rays that are refracted"),
+        parts!("lucy", "statue-refracting"),
     ),
     lucy(
         "stegmaier-1-lucy-reflecting",
@@ -127,7 +120,7 @@ pub const STEGMAIER: [PaperFigure; 19] = [
         "stegmaier-6-refracting",
         "Stegmaier05, Figure 6",
         "the engine of a material that refracts what is behind it",
-        Err("this program draws no rays that are refracted"),
+        parts!("engine", "refracting"),
     ),
     bucky(
         "stegmaier-7-reflecting-none",

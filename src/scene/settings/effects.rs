@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::refraction::{Refraction, points};
 use super::section::section;
 use crate::scene::limits::{Limits, WrongValue};
 
@@ -12,6 +13,15 @@ const BIASES: Limits = Limits::from_to(0.0, 100.0, "voxels {}");
 
 /// The most that a volume unit takes of light: what is left of it behind a voxel of the finest volume is no number of f32.
 const MOST_ABSORPTION: f64 = 1e6;
+
+/// Ways from the volume to what is behind it.
+const BEHIND: Limits = Limits::from_to(0.0, 100.0, "a number of volume units {}");
+
+/// Squares of a checker.
+const SQUARES: Limits = Limits::from_to(1.0, 1000.0, "a number of squares {}");
+
+/// The built-in background, in place of a file.
+pub const CHECKER: &str = "checker";
 
 /// Seconds that a frame with an effect may take, from a hundredth to a day.
 const SECONDS: Limits = Limits::from_to(0.01, 86400.0, "a number of seconds {}");
@@ -34,6 +44,24 @@ section! {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(skip)]
     translucency?: Translucency, by sound;
+
+    /// Bend rays by the index of refraction that values x have, linear between those given: `0.2:1,0.4:1.33`
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(long, value_name = "X:INDEX,...", value_parser = points, allow_hyphen_values = true)]
+    refraction?: Refraction, by super::refraction::sound;
+
+    /// What is behind the volume: "checker", or a picture (PNG, Radiance HDR or OpenEXR) relative to the scene file
+    #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]
+    #[arg(id = "behind", long = "behind", value_name = "checker|FILE")]
+    background?: PathBuf;
+
+    /// How far the background is behind the corner of the volume that is farthest from the eye, in volume units
+    #[arg(long = "behind-distance", value_name = "UNITS", allow_negative_numbers = true)]
+    background_distance: f64 = 0.5, within BEHIND;
+
+    /// Squares of the checker in the height of the picture
+    #[arg(long = "behind-squares", value_name = "COUNT", allow_negative_numbers = true)]
+    background_squares: f64 = 12.0, within SQUARES;
 
     /// A file that defines `vec4 effect(Sample here)`, relative to the scene file
     #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]

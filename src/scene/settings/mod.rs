@@ -23,6 +23,7 @@ mod method;
 mod parse;
 mod placed;
 mod projection;
+mod refraction;
 mod sampling;
 mod section;
 mod shading;
@@ -41,7 +42,7 @@ pub use super::method::{Cull, DepthFormat, Distance, Mark, MethodName};
 pub use super::projection::ProjectionName;
 pub use super::volume_choice::{Component, Endian, Orientation};
 pub use clip::{ClipOptions, ClipSettings};
-pub use effects::Translucency;
+pub use effects::{CHECKER, Translucency};
 pub use environment::{ENVIRONMENTS, Mapping};
 pub use image::Accumulate;
 pub use key::Key;
@@ -50,6 +51,7 @@ pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS};
 pub use placed::Placed;
+pub use refraction::Refraction;
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
 pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
@@ -141,11 +143,13 @@ impl Settings {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
         let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
         let own = [&mut self.volume.path, &mut self.volume.mesh, &mut self.transfer.file];
+        let background = self.effects.background.iter_mut().filter(|name| name.as_os_str() != CHECKER);
         own.into_iter()
             .chain([&mut self.environment.image, &mut self.effects.file])
             .chain(meshes)
             .chain(clips)
             .flatten()
+            .chain(background)
     }
 
     pub fn formats(&self) -> Formats {

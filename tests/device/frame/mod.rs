@@ -16,6 +16,7 @@ mod orbit;
 mod planner;
 mod projections;
 mod recorded;
+mod refraction;
 pub mod scenes;
 mod single_pass;
 mod textures;
@@ -38,6 +39,7 @@ pub fn tests() -> Vec<Test> {
         projections::tests(),
         single_pass::tests(),
         effects::tests(),
+        refraction::tests(),
     ]
     .into_iter()
     .flatten()
