@@ -40,7 +40,7 @@ fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
 fn fresh() -> &'static [(Source, ShaderModule)] {
     static MODULES: OnceLock<Vec<(Source, ShaderModule)>> = OnceLock::new();
     MODULES.get_or_init(|| {
-        let asked = asked::shaders(&asked::plans());
+        let asked = asked::shaders(asked::plans());
         let fresh = |shader: Source| {
             let text = glsl::built_in().text(shader.file).unwrap().with(shader.insert.as_deref());
             let defines: Vec<&str> = shader.defines.iter().copied().collect();

@@ -200,7 +200,7 @@ impl<'a> Types<'a> {
 
 /// The struct in every module that the program may ask for and that has it.
 fn in_shaders(name: &str) -> Vec<(String, Layout)> {
-    static ASKED: LazyLock<BTreeSet<Shader>> = LazyLock::new(|| asked::shaders(&asked::plans()));
+    static ASKED: LazyLock<BTreeSet<Shader>> = LazyLock::new(|| asked::shaders(asked::plans()));
     let read = |shader: &Shader| {
         let words = load_words(glsl::module(shader).unwrap()).unwrap();
         Types::of(&words).layout(name).map(|layout| (shader.to_string(), layout))

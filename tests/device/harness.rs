@@ -95,14 +95,23 @@ pub fn least() -> bool {
     some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
 }
 
-/// One in so many that a driver takes of what others take whole.
-const SHARE: usize = 3;
+/// One in so many that a driver takes of what another takes whole.
+const SHARE: usize = 2;
 
-/// What this driver takes of `all` views or methods of a scene: all of them or, where other drivers do more of everything, every
-/// third, from the first to the third on by `turn`; one at least. Scenes that count their turns have all of them between them.
+/// The same of a driver that does least.
+const LEAST_SHARE: usize = 4;
+
+/// What this driver takes of `all` views or methods of a scene: all of them or, where another driver draws all forms, every other, and
+/// where other drivers do more of everything every fourth, from the first to the fourth on by `turn`; one at least. Scenes that count
+/// their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();
-    let every = if least() { all.len().clamp(1, SHARE) } else { 1 };
+    let every = match () {
+        () if least() => LEAST_SHARE,
+        () if some_forms() => SHARE,
+        () => 1,
+    };
+    let every = every.min(all.len()).max(1);
     all.into_iter().skip(turn % every).step_by(every).collect()
 }
 

@@ -2,7 +2,7 @@
 //! and of the self-check. Kinds of scenes are those of the matrix, and all that may be combined besides.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use depthleap::frame::texture_unit;
 use depthleap::glsl::Shader;
@@ -11,7 +11,7 @@ use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::probe::{Case, rig};
-use depthleap::projection::{PROJECTIONS, Projection};
+use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName};
@@ -48,7 +48,8 @@ fn likes() -> Vec<Like> {
         cell: if bit(bits, 6) { 4 } else { 1 },
         projection,
     };
-    let all = PROJECTIONS.into_iter().flat_map(|row| (0..1 << 7).map(move |bits| each(bits, row)));
+    // One of colours, one whose rays end and one whose rays never do; the others have a scene each in the matrix.
+    let all = [&COMPOSITE, &MIP, &XRAY].into_iter().flat_map(|row| (0..1 << 7).map(move |bits| each(bits, row)));
     // A table makes colours of the values between two samples, which neither labels nor holes have.
     let refused = |like: &Like| like.nearest || like.holes || like.projection.shows_values();
     all.filter(|like| !(like.preintegrated && refused(like))).collect()
@@ -82,8 +83,13 @@ fn scene(method: MethodName, like: Like) -> Scene {
     scene
 }
 
-/// The plans of everything above and of the matrix, with what tells them apart.
-pub fn plans() -> Vec<(String, Plan)> {
+/// The plans of everything above and of the matrix, with what tells them apart; made once for all tests of a program.
+pub fn plans() -> &'static [(String, Plan)] {
+    static PLANS: LazyLock<Vec<(String, Plan)>> = LazyLock::new(made);
+    &PLANS
+}
+
+fn made() -> Vec<(String, Plan)> {
     let mut plans = Vec::new();
     let mut every_form = |method: &Method, scene: &Scene, like: &str| {
         for form in matrix::forms(method) {

@@ -45,7 +45,7 @@ pub(super) fn sound(refraction: &Option<Refraction>) -> Option<WrongValue> {
         if !INDICES.contains(*index) {
             return wrong(format!("has the index {index} at point {i}"), INDICES.remedy());
         }
-        if !(x.abs() <= LARGEST_X) {
+        if !(-LARGEST_X..=LARGEST_X).contains(x) {
             return wrong(format!("has x = {x} at point {i}"), format!("give numbers up to {LARGEST_X:e}"));
         }
         if i > 0 && *x <= points[i - 1][0] {
