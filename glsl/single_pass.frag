@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 //@takes [LEAP_BLOCKS | LEAP_DISTANCES], [ENDLESS], [GOES_ON], [HOLES | PREINTEGRATED], [PLANES]
 //@takes [VALUES], [SURFACE], [TRANSPARENT], [IN_VOLUME], [SHOWS_POSITION | SHOWS_NORMAL], [LIT], [SHADOWS], [TRANSLUCENT], [GRADIENTS], [ENVIRONMENT]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [CLIP_VOLUME]
 //@takes [EFFECT]
 
 #include "shared/single_pass.glsl"

@@ -6,6 +6,7 @@
 mod apart;
 mod block_ranges;
 mod classification;
+pub mod clip_volume;
 mod colors;
 mod counting;
 mod decisions;
@@ -31,6 +32,7 @@ mod transfer_function;
 
 pub use apart::APART;
 pub use block_ranges::BLOCK_RANGES;
+pub use clip_volume::CLIP_VOLUME;
 pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
@@ -62,7 +64,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 37] = [
+pub const FEATURES: [&Feature; 38] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -89,6 +91,7 @@ pub const FEATURES: [&Feature; 37] = [
     &OPAQUE_SURFACE,
     &APART,
     &CLIP_PLANES,
+    &CLIP_VOLUME,
     &ISO_SURFACE,
     &TRANSPARENT_SURFACES,
     &SURFACES_IN_VOLUME,
