@@ -5,6 +5,9 @@
 //
 // A place lies within as many surfaces as its value has reached, since they rise by their values. A ray crosses one after the other:
 // up through the next, or down through the last.
+//
+// CLIP_VOLUME: surfaces are crossed in what is kept alone; where a ray comes into that within some, it meets the innermost, as where it
+// begins.
 
 // How far rounding may lead the interpolant beyond the corners of its cell, relative (SLACK in src/projection/row.rs).
 const float INTERPOLATION_ROUNDING = exp2(-20.0);
@@ -21,10 +24,19 @@ struct Rest {
     vec4 color;
     float clear;
 #endif
+#ifdef CLIP_VOLUME
+    // Whether its sample is clipped, so that it shows nothing.
+    bool hidden;
+#endif
 };
 
 // Puts the volume up to a place, in steps, at which it has `value`, under what the ray holds.
 void show_until(float steps, float value, inout Rest rest, inout vec4 held) {
+#ifdef CLIP_VOLUME
+    if (rest.hidden) {
+        return;
+    }
+#endif
     float extent = max(steps - rest.begin, 0.0);
 #ifdef PREINTEGRATED
     held = joined(held, part_of(classify_between(node_of(rest.value), node_of(value)), extent));
@@ -147,18 +159,9 @@ void cross_exactly(Ray ray, vec2 stretch, inout int within, inout Rest rest, ino
     }
 }
 
-// Joins the step after sample `i`, at whose begin the ray has the value `front`, with what the ray holds.
-void cross_step(Ray ray, uint i, inout float front, inout vec4 held) {
-    vec2 stretch = stretch_after(ray, i);
-    float back = crossed_value(ray, stretch.y);
+// Those on a stretch between whose ends values go from `front` to `back`.
+void cross_between(Ray ray, vec2 stretch, float front, float back, inout Rest rest, inout vec4 held) {
     int within = surfaces_around(front);
-    Rest rest;
-    rest.begin = stretch.x;
-#if defined(IN_VOLUME) && defined(PREINTEGRATED)
-    rest.value = front;
-#elif defined(IN_VOLUME)
-    rest.color = color_of_sample(ray, i, rest.clear);
-#endif
     if (REFINE == CUBIC) {
         cross_exactly(ray, stretch, within, rest, held);
         // What rounding hides from the cubic and not from the value.
@@ -170,6 +173,52 @@ void cross_step(Ray ray, uint i, inout float front, inout vec4 held) {
     } else {
         cross_evenly(ray, stretch, front, back, within, rest, held);
     }
+}
+
+#ifdef CLIP_VOLUME
+// Those on what is kept of a stretch, with the innermost that the ray comes into it within.
+void cross_kept(Ray ray, vec2 stretch, float front, float back, inout Rest rest, inout vec4 held) {
+    KeptPart part = kept_part(ray, stretch);
+    if (!part.any_part) {
+        return;
+    }
+    if (part.enters) {
+        front = crossed_value(ray, part.between.x);
+        int within = surfaces_around(front);
+        if (within > 0) {
+            show_until(part.between.x, front, rest, held);
+            if (!is_done(held)) {
+                held = joined(held, color_where(ray, Meeting(part.between.x, within - 1)));
+            }
+        }
+    } else if (part.between.y < stretch.y) {
+        back = crossed_value(ray, part.between.y);
+    }
+    if (!is_done(held)) {
+        cross_between(ray, part.between, front, back, rest, held);
+    }
+}
+#endif
+
+// Joins the step after sample `i`, at whose begin the ray has the value `front`, with what the ray holds.
+void cross_step(Ray ray, uint i, inout float front, inout vec4 held) {
+    vec2 stretch = stretch_after(ray, i);
+    float back = crossed_value(ray, stretch.y);
+    Rest rest;
+    rest.begin = stretch.x;
+#if defined(IN_VOLUME) && defined(PREINTEGRATED)
+    rest.value = front;
+#elif defined(IN_VOLUME)
+    rest.color = color_of_sample(ray, i, rest.clear);
+#endif
+#ifdef CLIP_VOLUME
+#ifdef IN_VOLUME
+    rest.hidden = !is_kept(ray, steps_to(i));
+#endif
+    cross_kept(ray, stretch, front, back, rest, held);
+#else
+    cross_between(ray, stretch, front, back, rest, held);
+#endif
     if (!is_done(held)) {
         show_until(stretch.y, back, rest, held);
     }
@@ -178,6 +227,11 @@ void cross_step(Ray ray, uint i, inout float front, inout vec4 held) {
 
 // The innermost surface that a ray begins within, which it meets there.
 void cross_begin(Ray ray, float steps, inout vec4 held) {
+#ifdef CLIP_VOLUME
+    if (!is_kept(ray, steps)) {
+        return;
+    }
+#endif
     int within = surfaces_around(crossed_value(ray, steps));
     if (within > 0) {
         held = joined(held, color_where(ray, Meeting(steps, within - 1)));

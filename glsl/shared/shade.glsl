@@ -2,7 +2,7 @@
 // Needs frame.glsl, samples.glsl, volume.glsl, transfer.glsl (PREINTEGRATED: preintegrated.glsl; VALUES: neither),
 // opacity.glsl and projection.glsl. SURFACE (with VALUES, unless IN_VOLUME): surface.glsl. LIT: each sample is lit by its
 // gradient [Thesis ch. 7 §7.3]; gradient.glsl and phong.glsl. GRADIENTS: that and its value are in one texture. EFFECT:
-// effect.glsl.
+// effect.glsl. CLIP_VOLUME: a sample that is clipped counts as nothing, for its whole step; clip_volume.glsl.
 
 #if !defined(PREINTEGRATED) && !defined(VALUES)
 // Bring opacities from the reference length to the step.
@@ -50,6 +50,11 @@ float node_at(Ray ray, uint i) {
 vec4 shade_span(Ray ray, uint i, inout float front) {
     float back = node_at(ray, i + 1u);
     vec4 color = part_of(classify_between(front, back), extent_of_sample(ray, i));
+#ifdef CLIP_VOLUME
+    if (!is_kept(ray, steps_to(i))) {
+        color = vec4(0.0);
+    }
+#endif
     front = back;
     return color;
 }
@@ -57,6 +62,11 @@ vec4 shade_span(Ray ray, uint i, inout float front) {
 #elif defined(VALUES)
 // What sample `i` brings to its ray.
 vec4 shade_sample(Ray ray, uint i) {
+#ifdef CLIP_VOLUME
+    if (!is_kept(ray, steps_to(i))) {
+        return no_sample();
+    }
+#endif
     if (in_hole(ray, i)) {
         return no_sample();
     }
@@ -102,6 +112,11 @@ vec4 over_steps(vec4 color, float clear, float steps) {
 #ifndef SURFACE
 // Premultiplied colour of sample `i`.
 vec4 shade_sample(Ray ray, uint i) {
+#ifdef CLIP_VOLUME
+    if (!is_kept(ray, steps_to(i))) {
+        return no_sample();
+    }
+#endif
     if (in_hole(ray, i)) {
         return no_sample();
     }

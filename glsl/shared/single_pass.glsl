@@ -55,6 +55,9 @@
 #include "shared/root.glsl"
 #include "shared/surface_color.glsl"
 #endif
+#ifdef CLIP_VOLUME
+#include "shared/clip_volume.glsl"
+#endif
 #ifdef LEAP_DISTANCES
 #include "shared/free.glsl"
 #include "shared/distance.glsl"
@@ -90,9 +93,30 @@ bool is_done(vec4 held) {
 #if defined(TRANSPARENT)
 #include "shared/crossings.glsl"
 #elif defined(SURFACE)
+// Whether the ray meets a surface where it begins.
+bool begins_on_surface(Ray ray, float begin) {
+#ifdef CLIP_VOLUME
+    if (!is_kept(ray, begin)) {
+        return false;
+    }
+#endif
+    return on_surface(ray, begin);
+}
+
 // Joins the step after sample `i` with what the ray holds: the surface that it meets there, if any, which ends the ray.
 bool take_step(Ray ray, uint i, inout vec4 held) {
     vec2 stretch = stretch_after(ray, i);
+#ifdef CLIP_VOLUME
+    KeptPart part = kept_part(ray, stretch);
+    if (!part.any_part) {
+        return false;
+    }
+    stretch = part.between;
+    if (part.enters && on_surface(ray, stretch.x)) {
+        // It is met where the ray comes to it.
+        stretch.y = stretch.x;
+    }
+#endif
     if (!on_surface(ray, stretch.y)) {
         return false;
     }
@@ -119,7 +143,7 @@ vec4 gather(inout Ray ray, vec4 held) {
     // A ray that begins on a surface, or within, meets it there.
     if (!done && i < ray.samples) {
         float begin = stretch_after(ray, i).x;
-        if (on_surface(ray, begin)) {
+        if (begins_on_surface(ray, begin)) {
             held = joined(held, surface_color(ray, vec2(begin)));
             done = true;
         }

@@ -89,8 +89,8 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
 }
 
 /// What a scene is called in tables: the file without its folder, or the built-in volume, with the number of its meshes, of its
-/// clip meshes, of its clip planes and of its lights, whether it has an environment and a background, whether it
-/// refracts, and its effect.
+/// clip meshes, of its clip planes, of its clip volumes and of its lights, whether it has an environment and a background, whether
+/// it refracts, and its effect.
 pub fn scene_name(settings: &Settings) -> String {
     let volume = &settings.volume;
     let file = volume
@@ -116,7 +116,9 @@ pub fn scene_name(settings: &Settings) -> String {
     };
     let meshes = number(settings.meshes.len(), "a mesh", "meshes");
     let planes = settings.clips.iter().filter(|clip| clip.plane.is_some()).count();
-    let clips = number(settings.clips.len() - planes, "a clip mesh", "clip meshes");
+    let clips = settings.clips.iter().filter(|clip| clip.is_mesh()).count();
+    let volumes = number(settings.clips.len() - planes - clips, "a clip volume", "clip volumes");
+    let clips = number(clips, "a clip mesh", "clip meshes");
     let planes = number(planes, "a clip plane", "clip planes");
     let lights = number(settings.lights.len(), "a light", "lights");
     let environment = settings.environment.image.is_some() || settings.environment.builtin.is_some();
@@ -126,7 +128,7 @@ pub fn scene_name(settings: &Settings) -> String {
     let effect = settings.effects.file.as_deref().and_then(Path::file_stem);
     let effect = effect.map(|stem| format!("the effect {}", stem.to_string_lossy()));
     let geometry: Vec<String> =
-        [meshes, clips, planes, lights, around, refracts, behind, effect].into_iter().flatten().collect();
+        [meshes, clips, planes, volumes, lights, around, refracts, behind, effect].into_iter().flatten().collect();
     let with = if geometry.is_empty() { "" } else { " with " };
     // A name may hold what a terminal obeys.
     let volume = file.unwrap_or_else(built_in);

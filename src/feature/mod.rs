@@ -7,6 +7,7 @@ mod apart;
 pub mod backdrop;
 mod block_ranges;
 mod classification;
+pub mod clip_volume;
 mod colors;
 mod counting;
 mod decisions;
@@ -34,6 +35,7 @@ mod transfer_function;
 pub use apart::APART;
 pub use backdrop::{BACKDROP, BACKDROP_PICTURE};
 pub use block_ranges::BLOCK_RANGES;
+pub use clip_volume::CLIP_VOLUME;
 pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
@@ -66,7 +68,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 40] = [
+pub const FEATURES: [&Feature; 41] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -93,6 +95,7 @@ pub const FEATURES: [&Feature; 40] = [
     &OPAQUE_SURFACE,
     &APART,
     &CLIP_PLANES,
+    &CLIP_VOLUME,
     &ISO_SURFACE,
     &TRANSPARENT_SURFACES,
     &SURFACES_IN_VOLUME,

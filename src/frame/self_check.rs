@@ -166,6 +166,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
         camera,
         polygons,
         planes,
+        clip_volume: None,
         surface: None,
         lights,
         environment: None,

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
-use crate::feature::{BACKDROP, light_paths, refraction, surface};
+use crate::feature::{BACKDROP, clip_volume, light_paths, refraction, surface};
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -52,6 +52,7 @@ fn takes_in_passes(scene: &Scene) -> Result<()> {
     surface::check_opaque(scene)?;
     light_paths::check_passes(scene)?;
     refraction::check_passes(scene)?;
+    clip_volume::check_passes(scene)?;
     without_effect(scene)
 }
 

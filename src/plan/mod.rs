@@ -157,6 +157,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::surface::check(scene)?;
     feature::lights::check(scene)?;
     feature::light_paths::check(scene)?;
+    feature::clip_volume::check(scene)?;
     feature::environment::check(scene)?;
     feature::effect::check(scene)?;
     feature::refraction::check(scene)?;

@@ -15,6 +15,7 @@ use crate::structure::cells::any_interesting;
 pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let mut warnings = scene.field.volume.warnings.clone();
     warnings.extend(scene.polygons.warnings.clone());
+    warnings.extend(scene.clip_volume.iter().flat_map(|clip| clip.warnings.clone()));
     warnings.extend(scene.environment.iter().flat_map(|environment| environment.warnings.clone()));
     warnings.extend(scene.effect.iter().flat_map(|effect| effect.warnings.clone()));
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
@@ -32,6 +33,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
     if let Some(ends) = asked.filter(|ends| ends.iter().any(|end| matches!(end, RangeEnd::Percentile(_)))) {
         notes.push(format!("the scalar range {} to {} is {low} to {high}", ends[0], ends[1]));
     }
+    notes.extend(scene.clip_volume.iter().map(|clip| clip.words()));
     if scene.field.missing > 0 {
         let becomes = match scene.field.holes {
             Some(_) => "cells with one are transparent",

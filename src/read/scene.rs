@@ -9,10 +9,10 @@ use serde_json::Value;
 use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::HalfSpace;
-use crate::scene::mesh::{Mesh, shape};
+use crate::scene::mesh::{Keep, Mesh, shape};
 use crate::scene::mesh_field::{self, DEFAULT_BAND};
 use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
-use crate::scene::{Camera, ClipPlanes, Field, Polygons, Scene, Surface, TextureUnit, Volume, builtin};
+use crate::scene::{Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Surface, TextureUnit, Volume, builtin};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
@@ -125,6 +125,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
     let planes = settings.clips.iter().filter_map(ClipSettings::half_space).map(in_axes);
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
+    let clip_volume = clip_volume(settings, &field)?.map(Arc::new);
     let surface = Surface::of(settings, &field, &transfer);
     let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
     let (mut settings, field) = (settings.clone(), Arc::new(field));
@@ -137,6 +138,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
         camera,
         polygons,
         planes,
+        clip_volume,
         surface,
         lights,
         environment,
@@ -161,11 +163,24 @@ fn polygons(settings: &Settings, turn: DQuat) -> Result<Polygons> {
         let (mesh, place) = placed(settings.placed())?;
         polygons.add(&mesh, place, settings.material())?;
     }
-    for settings in settings.clips.iter().filter(|clip| clip.plane.is_none()) {
+    for settings in settings.clips.iter().filter(|clip| clip.is_mesh()) {
         let (mesh, place) = placed(settings.placed())?;
         polygons.add_clip(&mesh, place, settings.keep)?;
     }
     Ok(polygons.ready())
+}
+
+/// The volume in its place whose values clip `field`.
+fn clip_volume(settings: &Settings, field: &Field) -> Result<Option<ClipVolume>> {
+    let Some((clip, (placed, iso))) = settings.clips.iter().find_map(|clip| Some((clip, clip.volume()?))) else {
+        return Ok(None);
+    };
+    let volume = match placed.path {
+        Some(path) => super::volume(path, None)?,
+        None => builtin::volume(placed.builtin.as_deref().unwrap_or_default())?,
+    };
+    let (keeps_inside, turn) = (clip.keep == Keep::Inside, field.volume.turn);
+    ClipVolume::new(volume, iso, keeps_inside, &placed, field.extent(), turn).map(Some)
 }
 
 fn volume(settings: &VolumeSettings) -> Result<Volume> {

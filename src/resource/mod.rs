@@ -4,6 +4,7 @@
 //! Passes name it in their accesses; who makes it stands in its [`crate::part::resource::Origin`]: frames, the host, or a build
 //! in `crate::pass::build`.
 
+mod clip_volume;
 mod environment;
 mod frame;
 mod gradients;
@@ -14,6 +15,7 @@ mod structure;
 mod surface;
 pub mod texels;
 
+pub use clip_volume::{CLIP_VOLUME, CLIP_VOLUME_PLACE};
 pub use environment::{ENVIRONMENT, ENVIRONMENT_PLACE};
 pub use frame::{ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, STORED};
 pub use gradients::{GRADIENT_TEXELS, GRADIENTS, gradient_bytes, gradients};
@@ -31,7 +33,7 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 48] = [
+pub const RESOURCES: [Resource; 50] = [
     BOX,
     FRAME,
     CLIP_PLANES,
@@ -59,6 +61,8 @@ pub const RESOURCES: [Resource; 48] = [
     REFRACTIVE_INDEX,
     BACKDROP,
     VOLUME,
+    CLIP_VOLUME,
+    CLIP_VOLUME_PLACE,
     HOLES,
     GRADIENTS,
     GRADIENT_TEXELS,

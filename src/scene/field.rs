@@ -256,7 +256,7 @@ fn scalar_range(volume: &Volume, range: Option<[RangeEnd; 2]>, missing: &Missing
 }
 
 /// x of a value. NaN stands for the low end.
-fn normalised(value: f64, [low, high]: [f64; 2]) -> f32 {
+pub(super) fn normalised(value: f64, [low, high]: [f64; 2]) -> f32 {
     let value = match value {
         value if value.is_nan() => low,
         f64::INFINITY => high,

@@ -3,6 +3,7 @@
 pub mod backdrop;
 pub mod builtin;
 pub mod camera;
+pub mod clip_volume;
 pub mod effect;
 mod effects;
 pub mod environment;
@@ -35,6 +36,7 @@ use std::sync::Arc;
 
 pub use backdrop::Backdrop;
 pub use camera::Camera;
+pub use clip_volume::ClipVolume;
 pub use effect::Effect;
 pub use environment::Environment;
 pub use field::Field;
@@ -60,6 +62,8 @@ pub struct Scene {
     pub polygons: Arc<Polygons>,
     /// Planes that the volume is cut at.
     pub planes: ClipPlanes,
+    /// Another volume, by whose values this one is clipped.
+    pub clip_volume: Option<Arc<ClipVolume>>,
     /// Iso-surfaces that are drawn in place of the volume's colours.
     pub surface: Option<Surface>,
     /// Lights that are given, in the volume's axes.

@@ -1,6 +1,7 @@
 //! Structs that the shaders know too; `tests/shared.rs` compares every offset with the SPIR-V.
 
 mod bundle;
+mod clip_volume;
 mod environment;
 mod planes;
 mod polygons;
@@ -9,6 +10,7 @@ mod slice;
 mod surface;
 
 pub use bundle::Bundle;
+pub use clip_volume::clip_volume_rows;
 pub use environment::environment_rows;
 pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};

@@ -23,6 +23,7 @@
 //! Opacity 1: where it holds on a positive length, the ray ends there in that colour. Where it is reached at single
 //! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
 
+mod clip_volume;
 mod crossings;
 mod cubic;
 mod first;
@@ -31,6 +32,7 @@ mod met;
 mod panel;
 mod surfaces;
 
+pub use clip_volume::RayPart;
 pub use crossings::Crossing;
 pub use first::FirstPlace;
 pub use panel::TOLERANCE;
@@ -39,7 +41,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use self::cubic::Cubic;
-use self::met::Meeting;
 use self::panel::{Medium, Segment};
 use crate::math::interpolate::nearest;
 use crate::math::opacity::composite;
@@ -48,7 +49,7 @@ use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::mesh::DividedRay;
 use crate::scene::settings::Filter;
-use crate::scene::{Field, Polygons, Scene, TransferFunction};
+use crate::scene::{ClipVolume, Field, Polygons, Scene, TransferFunction};
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
 const BLACK: f64 = 1e-17;
@@ -62,6 +63,8 @@ pub struct ExactIntegrator<'a> {
     polygons: Option<(&'a Polygons, u32)>,
     /// Half spaces that keep what is in them.
     planes: &'a [HalfSpace],
+    /// Another volume, by whose values rays are clipped.
+    clip: Option<&'a ClipVolume>,
     /// Every point has the value of the nearest voxel, so that the ray is cut at their faces.
     nearest: bool,
     /// The scene, where its surfaces are drawn.
@@ -102,7 +105,16 @@ struct Light {
 impl<'a> ExactIntegrator<'a> {
     pub fn new(field: &'a Field, transfer: &'a TransferFunction) -> Self {
         let medium = Absorber::new(transfer);
-        Self { field, medium, projection: &COMPOSITE, polygons: None, planes: &[], nearest: false, surfaces: None }
+        Self {
+            field,
+            medium,
+            projection: &COMPOSITE,
+            polygons: None,
+            planes: &[],
+            clip: None,
+            nearest: false,
+            surfaces: None,
+        }
     }
 
     /// Of a scene, by its projection: its field between voxels is what its filter makes of it.
@@ -113,34 +125,33 @@ impl<'a> ExactIntegrator<'a> {
             Some((&*scene.polygons, scene.settings.layers.most)).filter(|(polygons, _)| !polygons.is_empty());
         let planes = scene.clip_planes();
         let surfaces = scene.surface.is_some().then_some(scene);
-        Self { nearest, projection, polygons, planes, surfaces, ..Self::new(&scene.field, &scene.transfer) }
+        let clip = scene.cutting_volume();
+        Self { nearest, projection, polygons, planes, clip, surfaces, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
     /// `direction` has length 1. The field goes on outside the volume as it is on its faces. Transparent black for
     /// a `length` that is not positive.
     pub fn ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
-        if let Some(scene) = self.surfaces {
-            return match scene.sees_through_surfaces() {
-                true => self.transparent_surfaces(scene, entry, direction, length),
-                false => self.surface(scene, entry, direction, length),
-            };
+        match &self.projection.values {
+            Some(values) => self.values(values, entry, direction, length),
+            None if self.clip.is_some() => self.clipped_ray(entry, direction, length),
+            None => self.whole_ray(entry, direction, length),
         }
+    }
+
+    /// Premultiplied RGBA of a ray of which all is kept, where colours are shown.
+    fn whole_ray(&self, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        match self.surfaces {
+            None => self.colors(&self.line(entry, direction), length),
+            Some(scene) if scene.sees_through_surfaces() => self.transparent_surfaces(scene, entry, direction, length),
+            Some(scene) => self.surface(scene, entry, direction, length),
+        }
+    }
+
+    fn line(&self, entry: DVec3, direction: DVec3) -> VoxelRay {
         let voxel = self.field.voxel();
-        let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
-        if let Some(values) = &self.projection.values {
-            let cuts = self.plane_cuts(&line, length);
-            let parts = cuts.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| a < b);
-            let lengths = |way: f64| way / (self.medium.transfer.reference * self.field.finest());
-            let mut meeting = Meeting::new(self.field);
-            for (a, b) in parts {
-                meeting.add(self.cell(&line, a, b).map(|cell| cell.cubic()), lengths(b - a));
-            }
-            let Some(met) = meeting.whole() else { return [0.0; 4] };
-            let value = (values.exact)(&met);
-            return [value, value, value, 1.0];
-        }
-        self.colors(&line, length)
+        VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel }
     }
 
     /// Premultiplied RGBA of what the transfer function makes of a line from 0 to `length`.
@@ -159,9 +170,7 @@ impl<'a> ExactIntegrator<'a> {
 
     /// The same of a ray from `from` to `to` of its length.
     fn colors_between(&self, entry: DVec3, direction: DVec3, [from, to]: [f64; 2]) -> [f64; 4] {
-        let (voxel, begin) = (self.field.voxel(), entry + from * direction);
-        let origin = (begin + 0.5 * self.field.extent()) / voxel - 0.5;
-        self.colors(&VoxelRay { origin, direction: direction / voxel }, to - from)
+        self.colors(&self.line(entry + from * direction, direction), to - from)
     }
 
     /// A picture of `size` = [width, height], row 0 on top: every ray from where it enters the volume's box to

@@ -25,7 +25,7 @@ impl Twin<'_> {
         let begin = self.stretch_after(pixel, first)[0];
         let mut front = self.value_at(pixel, begin);
         let within = self.around(pixel, front);
-        if pixel.section == 0 && within > 0 && !self.saturated(pixel) {
+        if pixel.section == 0 && within > 0 && !self.saturated(pixel) && self.is_kept(pixel, begin) {
             self.put_surface(pixel, self.as_placed(pixel, begin), within - 1);
         }
         let mut i = first;
@@ -48,28 +48,28 @@ impl Twin<'_> {
     /// Joins the step after sample `i` with what the pixel has: surfaces, and the volume in front of them, between and behind.
     fn cross_step(&self, pixel: &mut Pixel, i: u32, stretch: [f64; 2], [front, back]: [RoundedValue; 2]) {
         let mut from = (stretch[0], front.value);
-        for crossing in self.crossings_between(pixel, stretch, [front, back]) {
+        let shows = self.scene.surfaces_in_volume() && self.is_kept(pixel, self.steps_to(i));
+        for crossing in self.crossings_kept(pixel, stretch, [front, back]) {
             if self.saturated(pixel) {
                 return;
             }
             let to = (crossing.place.steps, crossing.value);
-            self.show_between(pixel, i, from, to, crossing.place.rounding);
+            if shows {
+                self.show_between(pixel, i, from, to, crossing.place.rounding);
+            }
             from = to;
             if self.saturated(pixel) {
                 return;
             }
             self.put_surface(pixel, crossing.place, crossing.level);
         }
-        if !self.saturated(pixel) {
+        if shows && !self.saturated(pixel) {
             self.show_between(pixel, i, from, (stretch[1], back.value), 0.0);
         }
     }
 
-    /// Puts the volume between two places of a step, each with its value, under what the pixel has, where surfaces stand in it.
+    /// Puts the volume between two places of a step, each with its value, under what the pixel has.
     fn show_between(&self, pixel: &mut Pixel, i: u32, from: (f64, f64), to: (f64, f64), rounding: f64) {
-        if !self.scene.surfaces_in_volume() {
-            return;
-        }
         let part = self.shade_part(pixel, i, (to.0 - from.0).max(0.0), [from.1, to.1]);
         let whole = self.shade_part(pixel, i, 1.0, [from.1, to.1]);
         // A surface that is found elsewhere cuts the step elsewhere.
@@ -83,9 +83,24 @@ impl Twin<'_> {
         surfaces_around(self.surface_values, sample.value)
     }
 
-    /// A place that is the end of a step.
-    fn as_placed(&self, pixel: &Pixel, steps: f64) -> RoundedPlace {
-        RoundedPlace { steps, rounding: self.cut_rounding(pixel) / self.voxels_in_step(pixel) }
+    /// The surfaces that are crossed on what is kept of a stretch, in their order, behind the innermost that the ray comes into it within.
+    fn crossings_kept(&self, pixel: &mut Pixel, stretch: [f64; 2], [front, back]: [RoundedValue; 2]) -> Vec<Crossing> {
+        let Some(part) = self.kept_part(pixel, stretch) else { return Vec::new() };
+        let [begin, end] = part.between;
+        if !part.enters {
+            let cut = end < stretch[1];
+            let back = if cut { self.value_beside_cut(pixel, end, part.rounding) } else { back };
+            return self.crossings_between(pixel, part.between, [front, back]);
+        }
+        let front = self.value_beside_cut(pixel, begin, part.rounding);
+        let within = self.around(pixel, front);
+        let mut crossings = Vec::new();
+        if within > 0 {
+            let place = RoundedPlace { steps: begin, rounding: part.rounding + self.as_placed(pixel, begin).rounding };
+            crossings.push(Crossing { place, level: within - 1, value: front.value });
+        }
+        crossings.extend(self.crossings_between(pixel, part.between, [front, back]));
+        crossings
     }
 
     /// The surfaces that are crossed on a stretch, in their order.

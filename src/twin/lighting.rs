@@ -22,7 +22,8 @@ pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     if met == 0.0 {
         return Effect::Discarded;
     }
-    let (place, level) = twin.met(pixel, [front, back]);
+    let (mut place, level) = twin.met(pixel, [front, back]);
+    place.rounding += pixel.cut;
     twin.put_surface(pixel, place, level);
     Effect::Silent
 }

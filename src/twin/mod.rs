@@ -3,6 +3,7 @@
 pub mod backdrop;
 pub mod block_skip;
 pub mod clip_begin;
+mod clip_volume;
 pub mod clip_winding;
 mod crossings;
 pub mod direction;
@@ -113,6 +114,8 @@ pub struct Pixel {
     pub accumulated: [f64; 4],
     /// RES of rays that look for a surface: steps to the places between which they meet it, 0, and 1 where there is one.
     pub hit: [f64; 4],
+    /// How far f32 may be off with where a clip volume cuts the step in which that was met, in steps.
+    pub cut: f64,
     /// The iso-surface that the ray has met, once it is lit.
     pub surface: Option<MetSurface>,
     /// The depth buffer.

@@ -179,11 +179,14 @@ impl Twin<'_> {
 
     /// What sample `i` brings to its ray, whatever is shown.
     pub(super) fn sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
-        match (&self.projection.values, self.table) {
+        let sample = match (&self.projection.values, self.table) {
             (Some(values), _) => self.value_sample(values, pixel, i),
             (None, Some(table)) => self.shade_span(table, pixel, i),
             (None, None) => self.shade_sample(pixel, i),
-        }
+        };
+        // Of what shows nothing nobody can tell whether it is clipped.
+        let shows = sample != self.no_sample();
+        if shows && !self.is_kept(pixel, self.steps_to(i)) { self.no_sample() } else { sample }
     }
 
     /// What the ray's segment for main pass `pass` brings to the pixel, and whether it took a sample that shows.

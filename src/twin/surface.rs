@@ -36,7 +36,7 @@ impl Twin<'_> {
         let begins = first < end && first == self.samples_of_part(pixel).0;
         let begin = begins.then(|| self.stretch_after(pixel, first)[0]);
         let mut hit = None;
-        if let Some(begin) = begin.filter(|begin| self.is_on_surface(pixel, *begin)) {
+        if let Some(begin) = begin.filter(|begin| self.is_kept(pixel, *begin) && self.is_on_surface(pixel, *begin)) {
             hit = Some([begin, begin]);
         }
         for i in first..end {
@@ -44,7 +44,7 @@ impl Twin<'_> {
                 break;
             }
             let stretch = self.stretch_after(pixel, i);
-            hit = self.is_on_surface(pixel, stretch[1]).then_some(stretch);
+            hit = self.hit_in_step(pixel, stretch);
         }
         match hit {
             Some(stretch) if pixel.hit[3] == 0.0 => (met(stretch), Effect::Contributed),
@@ -62,11 +62,15 @@ impl Twin<'_> {
     }
 
     /// Whether the ray is on a surface `steps` from the entry point; undecided where f32 may find another thing there.
-    fn is_on_surface(&self, pixel: &mut Pixel, steps: f64) -> bool {
+    pub(super) fn is_on_surface(&self, pixel: &mut Pixel, steps: f64) -> bool {
         let sample = self.value_at(pixel, steps);
-        let near = |bound: f64| (sample.value - bound).abs() < sample.rounding;
-        pixel.undecided |= self.surface_values.iter().flatten().any(|bound| near(*bound));
+        pixel.undecided |= self.near_surface(sample);
         on_surface(self.surface_values, sample.value).is_some()
+    }
+
+    /// Whether a value is so near to one at which a surface begins or ends that f32 may find it beyond.
+    pub(super) fn near_surface(&self, sample: RoundedValue) -> bool {
+        self.surface_values.iter().flatten().any(|bound| (sample.value - bound).abs() < sample.rounding)
     }
 
     /// The value `steps` from the entry point, and how far f32 may be off.

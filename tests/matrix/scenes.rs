@@ -8,7 +8,7 @@ use std::sync::Arc;
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
-use depthleap::projection::{MIP, PROJECTIONS};
+use depthleap::projection::{AVERAGE, MIP, PROJECTIONS};
 use depthleap::read;
 use depthleap::scene::environment::Picture;
 use depthleap::scene::field::NanPolicy;
@@ -27,7 +27,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 67] = [
+const KINDS: [(&str, Change); 71] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -107,6 +107,21 @@ const KINDS: [(&str, Change); 67] = [
     ("a plane, and what is behind the first surface of a box", |s| {
         s.clips = vec![clip(0.8, Keep::Thesis), plane([0.5, 0.2, -1.0, 0.2])];
         s.meshes = vec![across(0.5)];
+    }),
+    ("what is inside of a clip volume", |s| s.clips = vec![clip_volume(Keep::Inside)]),
+    ("values outside of a clip volume, with holes", |s| {
+        (s.clips, s.projection.kind) = (vec![clip_volume(Keep::Outside)], AVERAGE.name());
+        (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole);
+    }),
+    ("an iso-surface outside of a clip volume, to the root, with a plane and a mesh", |s| {
+        (s.surface.iso, s.surface.refine) = (Some(90.0), Refine::Exact);
+        s.clips = vec![clip_volume(Keep::Outside), plane([0.3, -0.2, -1.0, 0.25])];
+        s.meshes = vec![cuboid(0.5, 0.4)];
+    }),
+    ("transparent iso-surfaces in the volume outside of a clip volume, classified as a whole", |s| {
+        s.surface.levels = vec![sheet(150.0, [0.9, 0.2, 0.1], 0.5), sheet(60.0, [0.2, 0.8, 0.3], 0.3)];
+        (s.surface.volume, s.sampling.classification) = (true, Classification::PreIntegrated);
+        s.clips = vec![clip_volume(Keep::Outside)];
     }),
     ("an iso-surface", |s| s.surface.iso = Some(90.0)),
     ("iso-surfaces in colours and coloured light, to the root", |s| {
@@ -299,6 +314,19 @@ fn across(opacity: f64) -> MeshSettings {
 fn clip(side: f64, keep: Keep) -> ClipSettings {
     let MeshSettings { builtin, rotate, .. } = cuboid(side, 0.0);
     ClipSettings { builtin, keep, scale: side, rotate, ..ClipSettings::default() }
+}
+
+/// A ball about a corner of the volume, by a clip volume of another size that lies across.
+fn clip_volume(keep: Keep) -> ClipSettings {
+    ClipSettings {
+        builtin: Some("gaussian:13x19x16".to_owned()),
+        iso: Some(0.1),
+        keep,
+        scale: 1.3,
+        rotate: [20.0, 33.0, 10.0],
+        translate: [0.11, 0.19, 0.23],
+        ..ClipSettings::default()
+    }
 }
 
 fn plane(plane: [f64; 4]) -> ClipSettings {

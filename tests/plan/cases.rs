@@ -74,6 +74,14 @@ fn clipped(keep: Keep, partial: PartialSegments, form: Option<Form>) -> Plan {
     plan(&scene(&settings), form).unwrap()
 }
 
+/// By a loop that leaps, with a clip volume.
+fn clipped_by_volume() -> Plan {
+    let mut settings = settings(method::SINGLE_PASS_OMNI.name());
+    let builtin = Some("gaussian:12".to_owned());
+    settings.clips = vec![ClipSettings { builtin, iso: Some(0.5), keep: Keep::Outside, ..ClipSettings::default() }];
+    plan(&scene(&settings), None).unwrap()
+}
+
 pub fn cases() -> Vec<Case> {
     use {Cull::*, Mark::*};
     let form = |cull, mark| Some(Form { cull, mark });
@@ -146,6 +154,7 @@ pub fn cases() -> Vec<Case> {
     ] {
         cases.push(Case { name, plan: on_surface(method, form) });
     }
+    cases.push(Case { name: "single-pass-omni_clip_volume", plan: clipped_by_volume() });
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });
     cases
 }

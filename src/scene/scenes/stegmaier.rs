@@ -101,7 +101,7 @@ pub const STEGMAIER: [PaperFigure; 19] = [
     engine(
         "stegmaier-6-clipped",
         "Stegmaier05, Figure 6",
-        "an iso-surface of the engine, of which a sphere is cut out",
+        "an iso-surface of the engine, clipped by a sphere, the iso-surface of a radial field",
         parts!("engine", "surface", "lit", "sphere"),
     ),
     engine(

@@ -1,4 +1,5 @@
-//! `[[clip]]`: meshes [Thesis ch. 6 §3] and planes [Thesis §3.1.2] that the volume is cut at.
+//! `[[clip]]`: meshes [Thesis ch. 6 §3], planes [Thesis §3.1.2] and iso-surfaces of another volume [Stegmaier05 §6] that the volume is
+//! cut at.
 
 use std::path::PathBuf;
 
@@ -14,12 +15,19 @@ use crate::scene::mesh::{Keep, MOST_CLIPS};
 use crate::scene::planes::MOST_PLANES;
 
 placed_mesh! {
-    /// A mesh that the volume is cut at, with its place, or a plane; what every one of them keeps is drawn. Lengths are in volume
-    /// space: the longest side of the volume is 1, its centre is 0,0,0.
+    /// A mesh or another volume that the volume is cut at, with its place, or a plane; what every one of them keeps is drawn. Lengths
+    /// are in volume space: the longest side of the volume is 1, its centre is 0,0,0. So is the longest side of another volume, and
+    /// its centre, before it is placed.
     #[serde(default, deny_unknown_fields, expecting = "a table [[clip]]")]
     ClipSettings, "clip", "mesh";
 
-    /// The part of the volume that is kept by a mesh.
+    /// A file of a volume, in place of a mesh, relative to the scene file; or `builtin` beside `iso`, `NAME:SIZE`.
+    #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]
+    volume: Option<PathBuf> = None;
+    /// The value of such a volume, in its own unit, from which on a place is inside. Places beyond its box are outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    iso: Option<f64> = None;
+    /// The part of the volume that is kept by a mesh, or by another volume.
     keep: Keep = Keep::Inside;
     /// `[nx, ny, nz, d]`, in place of a mesh: the plane keeps the points p with n . p + d >= 0.
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "fixed::optional")]
@@ -55,7 +63,40 @@ impl ClipSettings {
         Some(HalfSpace { normal: normal / length, distance: -d / length })
     }
 
+    /// Where another volume comes from that the volume is cut at, its place, and the value from which on places are inside; none of
+    /// meshes and planes.
+    pub fn volume(&self) -> Option<(Placed<'_>, f64)> {
+        let asked = self.plane.is_none() && (self.volume.is_some() || self.iso.is_some());
+        asked
+            .then(|| (Placed { file_key: "volume", path: &self.volume, ..self.placed() }, self.iso.unwrap_or(f64::NAN)))
+    }
+
+    /// Whether it is a mesh.
+    pub fn is_mesh(&self) -> bool {
+        self.plane.is_none() && self.volume().is_none()
+    }
+
+    fn check_volume(&self, placed: &Placed, iso: f64) -> Result<()> {
+        let refuse = |key: &str, problem: &str, remedy: &str| Err(placed.refusal(key, problem.to_owned(), remedy));
+        match () {
+            () if self.path.is_some() => refuse("mesh", "is given beside a volume", "give them in tables of their own"),
+            () if self.iso.is_none() => refuse(
+                "iso",
+                "is missing",
+                "give the value of the volume, in its own unit, from which on a place is inside",
+            ),
+            () if !iso.is_finite() => refuse("iso", &format!("is {iso}"), "give a finite number"),
+            () if self.keep == Keep::Thesis => {
+                refuse("keep", "is \"thesis\", which cuts in front of the surfaces of meshes", "use inside or outside")
+            }
+            () => placed.check(),
+        }
+    }
+
     fn check(&self) -> Result<()> {
+        if let Some((placed, iso)) = self.volume() {
+            return self.check_volume(&placed, iso);
+        }
         let Some(plane) = self.plane else { return self.placed().check() };
         let refuse = |problem: String, remedy: &str| Err(Error::usage("clip.plane (--clip-plane)", problem, remedy));
         if !plane.iter().all(|n| n.is_finite()) {
@@ -64,7 +105,7 @@ impl ClipSettings {
         if *self != (Self { plane: self.plane, ..Self::default() }) {
             return refuse(
                 format!("{plane:?} stands beside other keys"),
-                "give a plane alone: mesh, builtin, keep and the keys of places are those of meshes",
+                "give a plane alone: mesh, builtin, volume, iso, keep and the keys of places are those of meshes and volumes",
             );
         }
         if plane[..3] == [0.0; 3] {
@@ -97,7 +138,13 @@ pub(super) fn check(clips: &[ClipSettings]) -> Result<()> {
             format!("keep them to {MOST_PLANES}"),
         ));
     }
-    let meshes = clips.len() - planes;
+    let volumes = clips.iter().filter(|clip| clip.volume().is_some()).count();
+    if volumes > 1 {
+        let remedy =
+            "keep it to one, or join them in one file: the greatest of their values is at least what any of them is";
+        return Err(Error::usage("clip.volume", format!("has {volumes} volumes"), remedy));
+    }
+    let meshes = clips.len() - planes - volumes;
     let thesis = clips.iter().filter(|clip| clip.keep == Keep::Thesis).count();
     if thesis > 0 && thesis < meshes {
         return Err(Error::usage(

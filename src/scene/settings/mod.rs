@@ -141,7 +141,7 @@ impl Settings {
     /// Every path of a file that the settings name.
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
-        let clips = self.clips.iter_mut().map(|clip| &mut clip.path);
+        let clips = self.clips.iter_mut().flat_map(|clip| [&mut clip.path, &mut clip.volume]);
         let own = [&mut self.volume.path, &mut self.volume.mesh, &mut self.transfer.file];
         let background = self.effects.background.iter_mut().filter(|name| name.as_os_str() != CHECKER);
         own.into_iter()

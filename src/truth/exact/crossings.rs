@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{ExactIntegrator, VoxelRay};
+use super::ExactIntegrator;
 
 /// A place at which a ray crosses a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl ExactIntegrator<'_> {
     /// or less than it, in their order; a value that is only touched is not crossed. Lengths are in volume units, `direction` has length 1.
     pub fn crossings(&self, entry: DVec3, direction: DVec3, length: f64, levels: &[f64]) -> Vec<Crossing> {
         let voxel = self.field.voxel();
-        let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
+        let line = self.line(entry, direction);
         let cuts = self.plane_cuts(&line, length);
         let (mut within, mut inside) = (None, Vec::new());
         let mut crossings = Vec::new();

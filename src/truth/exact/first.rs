@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::ExactIntegrator;
 use super::cubic::Cubic;
-use super::{ExactIntegrator, VoxelRay};
 use crate::projection::on_surface;
 
 /// A place at which a ray first has one of some values.
@@ -24,7 +24,7 @@ impl ExactIntegrator<'_> {
     /// their begins. Lengths are in volume units, `direction` has length 1.
     pub fn first_within(&self, entry: DVec3, direction: DVec3, length: f64, ranges: &[[f64; 2]]) -> Option<FirstPlace> {
         let voxel = self.field.voxel();
-        let line = VoxelRay { origin: (entry + 0.5 * self.field.extent()) / voxel - 0.5, direction: direction / voxel };
+        let line = self.line(entry, direction);
         let mut bounds: Vec<f64> = ranges.iter().flatten().copied().filter(|bound| bound.is_finite()).collect();
         bounds.sort_by(f64::total_cmp);
         bounds.dedup();

@@ -1,7 +1,10 @@
 //! What a ray meets of the field: its extrema and its integral, in closed form.
 
+use glam::DVec3;
+
+use super::ExactIntegrator;
 use super::cubic::Cubic;
-use crate::projection::Met;
+use crate::projection::{Met, OfValues};
 use crate::scene::Field;
 
 /// A ray on its way.
@@ -34,5 +37,25 @@ impl Meeting {
             [self.met.greatest, self.met.least] = self.all;
         }
         (self.met.lengths > 0.0).then_some(self.met)
+    }
+}
+
+impl ExactIntegrator<'_> {
+    /// The grey that a projection of values gives a ray; transparent black where it has no length. What is clipped counts as a hole.
+    pub(super) fn values(&self, values: &OfValues, entry: DVec3, direction: DVec3, length: f64) -> [f64; 4] {
+        let line = self.line(entry, direction);
+        let cuts = self.plane_cuts(&line, length);
+        let lengths = |way: f64| way / (self.medium.transfer.reference * self.field.finest());
+        let mut meeting = Meeting::new(self.field);
+        for part in self.kept_parts(entry, direction, length) {
+            let between = cuts.windows(2).map(|pair| (pair[0].max(part.from), pair[1].min(part.to)));
+            for (a, b) in between.filter(|(a, b)| a < b) {
+                let cell = part.kept.then(|| self.cell(&line, a, b)).flatten();
+                meeting.add(cell.map(|cell| cell.cubic()), lengths(b - a));
+            }
+        }
+        let Some(met) = meeting.whole() else { return [0.0; 4] };
+        let value = (values.exact)(&met);
+        [value, value, value, 1.0]
     }
 }
