@@ -1,5 +1,5 @@
 //! Every shader that the program may ask for: those of the plans of all methods, forms and kinds of scenes, of the probe,
-//! and of the self-check. Kinds of scenes are those of the matrix, and all that may be combined besides.
+//! and of the self-check. Kinds of scenes are those of the matrix, in turns for loops, and all that may be combined besides.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
@@ -8,7 +8,7 @@ use depthleap::frame::texture_unit;
 use depthleap::glsl::Shader;
 use depthleap::method::METHODS;
 use depthleap::part::form::Form;
-use depthleap::part::rows::Method;
+use depthleap::part::rows::{Method, Traversal};
 use depthleap::plan::{Plan, plan};
 use depthleap::probe::{Case, rig};
 use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
@@ -109,9 +109,11 @@ fn made() -> Vec<(String, Plan)> {
             every_form(method, &scene, &format!("{accumulate:?}"));
         }
     }
-    for (name, scene) in matrix::scenes() {
+    for (number, (name, scene)) in matrix::scenes().into_iter().enumerate() {
         for (view, scene) in matrix::views(&scene) {
-            for method in matrix::methods(&scene) {
+            // Loops are long, and take longest to compile: by fragment shaders in one scene, by compute shaders in the next.
+            let other = [Traversal::ComputeLoop, Traversal::FragmentLoop][number % 2];
+            for method in matrix::methods(&scene).filter(|method| method.traversal != other) {
                 every_form(method, &matrix::by(&scene, method), &format!("{name} {view}"));
             }
         }
