@@ -38,6 +38,10 @@ fn scenes() -> Vec<Scene> {
         s.meshes = vec![mesh(0.5), mesh(1.0)];
     });
     let cut = scene(|s| s.clips = vec![ClipSettings { plane: Some([0.0, 1.0, 0.0, 0.1]), ..ClipSettings::default() }]);
+    let clipped = scene(|s| {
+        let builtin = Some("gaussian:5x4x3".to_owned());
+        s.clips = vec![ClipSettings { builtin, iso: Some(0.5), ..ClipSettings::default() }];
+    });
     let surface = scene(|s| s.surface.iso = Some(90.0));
     let coloured_light = scene(|s| {
         let direction = Some([1.0, 2.0, 3.0]);
@@ -46,7 +50,7 @@ fn scenes() -> Vec<Scene> {
     });
     let reflecting = scene(|s| (s.surface.iso, s.environment.builtin) = (Some(90.0), Some("sky".to_owned())));
     let cells = scene(|s| s.method.cell = 4);
-    vec![reflecting, surface, coloured_light, scene(|_| {}), cells, coloured, holes, table, polygons, cut]
+    vec![reflecting, surface, coloured_light, scene(|_| {}), cells, coloured, holes, table, polygons, cut, clipped]
 }
 
 fn hole_at_7(i: usize) -> f32 {
@@ -61,7 +65,8 @@ fn plans() -> Vec<(Scene, Plan)> {
     };
     let methods = METHODS.into_iter().filter(|method| method.on_device);
     let all = methods.flat_map(|method| scenes().into_iter().map(move |scene| (method, scene)));
-    all.map(|(method, scene)| (method.papers, by(&scene, method.name())))
+    all.filter(|(method, scene)| (method.takes)(scene).is_ok())
+        .map(|(method, scene)| (method.papers, by(&scene, method.name())))
         .map(|(form, scene)| {
             let plan = plan(&scene, form).unwrap();
             (scene, plan)

@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::part::resource::{Resource, ResourceKind};
 use crate::plan::Plan;
 use crate::resource;
-use crate::scene::Scene;
+use crate::scene::{Scene, Volume};
 use crate::vulkan::DeviceInfo;
 
 /// Bytes a pixel takes on the host at the most: the frame in f64 twice, the picture in f32, the encoded file.
@@ -41,12 +41,22 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
         ));
     }
     let limit = info.max_image_3d;
-    if (read(resource::VOLUME) || read(resource::GRADIENTS)) && volume.dims.iter().any(|&n| n > limit as usize) {
-        return Err(Error::device(
-            &volume.name,
-            format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name),
-            "use a smaller volume, another device, or --method cpu",
-        ));
+    let fits = |volume: &Volume, remedy: &str| {
+        let problem = || format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name);
+        match volume.dims.iter().any(|&n| n > limit as usize) {
+            true => Err(Error::device(&volume.name, problem(), remedy)),
+            false => Ok(()),
+        }
+    };
+    if read(resource::VOLUME) || read(resource::GRADIENTS) {
+        fits(volume, "use a smaller volume, another device, or --method cpu")?;
+    }
+    let Some(clip) = scene.clip_volume.as_ref().filter(|_| read(resource::CLIP_VOLUME)) else { return Ok(()) };
+    fits(&clip.field.volume, "use a smaller clip volume, or another device")?;
+    let needed = resource::CLIP_VOLUME.bytes(&facts);
+    if needed > there {
+        let problem = format!("takes {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20);
+        return Err(Error::device(&clip.field.volume.name, problem, "use a smaller clip volume"));
     }
     Ok(())
 }

@@ -66,9 +66,13 @@ impl Twin<'_> {
     /// Whether a clip volume keeps the ray's place so many steps from the entry point; undecided where f32 may find another thing.
     pub(super) fn is_kept(&self, pixel: &mut Pixel, steps: f64) -> bool {
         let Some(clip) = self.scene.cutting_volume() else { return true };
-        let place = self.position_at(pixel, steps);
-        let [kept, less, more] = [0.0, -1.0, 1.0].map(|by| is_kept_by(clip, place, by));
-        pixel.undecided |= less != kept || more != kept;
+        let kept_by = |steps: f64, by: f64| is_kept_by(clip, self.position_at(pixel, steps), by);
+        let kept = kept_by(steps, 0.0);
+        // A place that is none of a sample is that of a polygon or of the exit point, and is off by more.
+        let is_sample = (steps - self.scene.settings.sampling.offset.steps()).fract() == 0.0;
+        let off = if is_sample { 0.0 } else { self.as_placed(pixel, steps).rounding };
+        let unsure = [(-off, -1.0), (-off, 1.0), (off, -1.0), (off, 1.0)];
+        pixel.undecided |= unsure.into_iter().any(|(off, by)| kept_by(steps + off, by) != kept);
         kept
     }
 

@@ -1,4 +1,4 @@
-//! What all meshes of a scene file have in common: where they come from, and their place in volume space.
+//! What all meshes of a scene file, and volumes that clip, have in common: where they come from, and their place in volume space.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use glam::{DMat4, DQuat, DVec3, DVec4, EulerRot};
 
 use crate::error::{Error, Result};
 
-/// Where a mesh comes from, and its place, borrowed from its table.
+/// Where a mesh, or a volume that clips, comes from, and its place, borrowed from its table.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
     /// The name of the table, in messages.
