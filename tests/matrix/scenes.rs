@@ -324,7 +324,7 @@ fn clip_volume(keep: Keep) -> ClipSettings {
         keep,
         scale: 1.3,
         rotate: [20.0, 33.0, 10.0],
-        translate: [0.11, 0.19, 0.23],
+        translate: [0.05, 0.25, 0.3],
         ..ClipSettings::default()
     }
 }
