@@ -10,6 +10,7 @@ use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::projection::{AVERAGE, MIP, PROJECTIONS};
 use depthleap::read;
+use depthleap::scene::backdrop::Pattern;
 use depthleap::scene::environment::Picture;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
@@ -18,7 +19,7 @@ use depthleap::scene::settings::{
     LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Refraction, Settings, ShadingSettings,
     Shows, SurfaceLevel, Translucency, VolumeTexture,
 };
-use depthleap::scene::{Camera, Effect, Environment, Scene};
+use depthleap::scene::{Backdrop, Camera, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
 
 type Change = fn(&mut Settings);
@@ -367,7 +368,7 @@ pub fn scenes() -> Vec<(String, Scene)> {
         (row.name, settings)
     });
     let scene = |(name, settings): (&str, Settings)| (name.to_owned(), read::scene(&settings).expect("a sound scene"));
-    kinds.chain(projections).map(scene).chain([mirror_ball()]).chain(effects()).collect()
+    kinds.chain(projections).map(scene).chain([mirror_ball(), picture_behind()]).chain(effects()).collect()
 }
 
 /// An iso-surface that reflects the picture of a mirror ball, unlike on each of its sides, in axes that are those of no volume.
@@ -386,6 +387,20 @@ fn mirror_ball() -> (String, Scene) {
         warnings: Vec::new(),
     }));
     ("an iso-surface that reflects a mirror ball, in turned axes".to_owned(), scene)
+}
+
+/// Rays that bend in front of a picture, unlike on each of its sides and of other sides than the view.
+fn picture_behind() -> (String, Scene) {
+    const SIZE: [usize; 2] = [9, 14];
+    let mut scene =
+        read::scene(&settings(|s| s.effects.refraction = index(&[[0.25, 1.0], [1.0, 1.3]]))).expect("a sound scene");
+    let texel = |i: usize| {
+        let [x, y] = [(i % SIZE[0]) as f32 / SIZE[0] as f32, (i / SIZE[0]) as f32 / SIZE[1] as f32];
+        [x, y, 0.5 + 0.5 * x * y]
+    };
+    let picture = Picture { size: SIZE, texels: (0..SIZE[0] * SIZE[1]).map(texel).collect() };
+    scene.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.4 }));
+    ("rays that bend in front of a picture".to_owned(), scene)
 }
 
 /// Scenes with an effect that changes nothing, whose twins are those without.

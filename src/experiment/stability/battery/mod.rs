@@ -1,6 +1,7 @@
 //! All cases, by what may go wrong.
 
 mod depth;
+mod family;
 mod optical;
 mod planes;
 mod projection;
@@ -22,6 +23,7 @@ pub fn battery() -> Vec<StabilityCase> {
         views::cases(),
         planes::cases(),
         surfaces::cases(),
+        family::cases(),
         sampling::cases(),
         depth::cases(),
         projection::cases(),
