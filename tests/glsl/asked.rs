@@ -1,5 +1,5 @@
 //! Every shader that the program may ask for: those of the plans of all methods, forms and kinds of scenes, of the probe,
-//! and of the self-check. Kinds of scenes are those of the matrix, in turns for loops, and all that may be combined besides.
+//! and of the self-check. Kinds of scenes are those of the matrix, in turns for loops that leap, and all that may be combined besides.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
@@ -111,14 +111,20 @@ fn made() -> Vec<(String, Plan)> {
     }
     for (number, (name, scene)) in matrix::scenes().into_iter().enumerate() {
         for (view, scene) in matrix::views(&scene) {
-            // Loops are long, and take longest to compile: by fragment shaders in one scene, by compute shaders in the next.
-            let other = [Traversal::ComputeLoop, Traversal::FragmentLoop][number % 2];
-            for method in matrix::methods(&scene).filter(|method| method.traversal != other) {
+            for method in matrix::methods(&scene).filter(|method| in_turn(method, number)) {
                 every_form(method, &matrix::by(&scene, method), &format!("{name} {view}"));
             }
         }
     }
     plans
+}
+
+/// Whether a method is one that the shaders of a scene are asked for by: of loops that leap, which take longest to compile, one in turn.
+fn in_turn(method: &Method, turn: usize) -> bool {
+    let traversal = [Traversal::FragmentLoop, Traversal::ComputeLoop][turn % 2];
+    let of_blocks = turn / 2 % 2 == 0;
+    let leaps = method.loops() && method.looks_ahead();
+    !leaps || method.traversal == traversal && method.skips_blocks() == of_blocks
 }
 
 /// The shaders of these plans and of what has no plan.
