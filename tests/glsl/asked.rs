@@ -122,7 +122,7 @@ fn made() -> Vec<(String, Plan)> {
 /// Whether a method is one that the shaders of a scene are asked for by: of loops that leap, which take longest to compile, one in turn.
 fn in_turn(method: &Method, turn: usize) -> bool {
     let traversal = [Traversal::FragmentLoop, Traversal::ComputeLoop][turn % 2];
-    let of_blocks = turn / 2 % 2 == 0;
+    let of_blocks = (turn / 2).is_multiple_of(2);
     let leaps = method.loops() && method.looks_ahead();
     !leaps || method.traversal == traversal && method.skips_blocks() == of_blocks
 }
