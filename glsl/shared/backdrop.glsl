@@ -23,7 +23,7 @@ vec3 backdrop_texel(vec2 at) {
     return texelFetch(backdrop, ivec2(clamp(there, vec2(0.0), size - 1.0)), 0).rgb;
 }
 #else
-// Squares in the height of the view, and their greys.
+// Squares in the height of the view, and their greys (GREYS in src/scene/backdrop.rs).
 layout(constant_id = 38) const float SQUARES = 1.0;
 const float GREYS[2] = float[](0.8, 0.2);
 #endif

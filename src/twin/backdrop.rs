@@ -3,10 +3,11 @@
 use super::{Effect, Pixel, Twin};
 use crate::scene::Backdrop;
 
-/// A place that is straight behind a pixel is as exact as f32, which rounds it and the number of squares; in pixels of a thousand.
+/// How far f32 may have the place straight behind a pixel, in pixels: some roundings of a place in a view of up to a thousand pixels.
 const STRAIGHT_ROUNDING: f64 = 2e-4;
 
-/// A place that is met from a point of the volume is off by some 2^-22 of the way to it: in parts of the view.
+/// How far f32 may have the place that is met from a point of the volume, as a part of the view: some 2^-22 of the way to it, and what
+/// the roundings of eye and plane add.
 const MET_ROUNDING: f64 = 2e-6;
 
 /// What every pixel begins with.

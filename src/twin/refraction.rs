@@ -11,8 +11,9 @@ use crate::scene::RefractiveIndex;
 /// What f32 may take at each bend from a direction, relative, and from a place, in voxels.
 const BEND_ROUNDING: f64 = 2.5e-7;
 
-/// A ray in f32 bends by values, gradients and places that are rounded, and every later bend magnifies what was lost. Two rays that lose
-/// so much at each bend, in opposite ways, tell how much that is; the difference to theirs, so many times, is stated.
+/// How many times the difference between a ray and two others is stated as its rounding. In f32 a ray bends by values, gradients and
+/// places that are rounded, and every later bend magnifies what was lost; the two others lose so much at each bend, in opposite ways,
+/// and tell how much that becomes.
 const MARGIN: f64 = 4.0;
 
 /// How a ray loses digits: by which sign.
