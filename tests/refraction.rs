@@ -177,7 +177,7 @@ fn rays_in_a_constant_index_are_straight_to_the_bit() {
 
 #[test]
 fn plane_behind_a_transparent_volume_has_no_seam() {
-    let scene = scene(16, |at| at.x, |s| s.effects.background = Some("checker".into()));
+    let scene = scene(16, |at| at.x, |s| s.effects.behind = Some("checker".into()));
     let (plan, frame) = drawn(&scene);
     let [width, height] = plan.view.size;
     assert_eq!(plan.view.region.size(), [width, height]);
@@ -198,7 +198,7 @@ fn bent_rays_see_where_their_lines_meet_the_plane() {
         scene(SIDE, smoothed_plane, |s| {
             (s.camera.eye, s.camera.target) = ([0.9, 0.3, 2.0], [0.0, 0.0, 0.4]);
             s.effects.refraction = refraction(&[[0.0, 1.0], [1.0, INDEX]]);
-            s.effects.background = background.then(|| "checker".into());
+            s.effects.behind = background.then(|| "checker".into());
             (s.effects.background_distance, s.effects.background_squares) = (0.7, 7.0);
         })
     };
@@ -238,7 +238,7 @@ fn refused(change: impl FnOnce(&mut Settings)) -> String {
     settings.volume.builtin = Some("shells:16".to_owned());
     settings.method.name = SINGLE_PASS.name();
     settings.effects.refraction = refraction(&[[0.2, 1.0], [0.8, 1.4]]);
-    settings.effects.background = Some("checker".into());
+    settings.effects.behind = Some("checker".into());
     change(&mut settings);
     let found = settings.check().and_then(|()| read::scene(&settings)).and_then(|scene| plan(&scene, None).map(|_| ()));
     found.expect_err("refused").to_string()
@@ -267,7 +267,7 @@ fn indices_that_are_none_are_refused() {
 fn what_has_no_meaning_with_bent_rays_is_refused() {
     let alone = |change: fn(&mut Settings)| {
         refused(|s| {
-            s.effects.background = None;
+            s.effects.behind = None;
             change(s);
         })
     };
@@ -299,8 +299,8 @@ fn what_has_no_meaning_before_a_background_is_refused() {
     for (said, named) in [
         (alone(|s| s.projection.kind = depthleap::projection::MIP.name()), "projection.kind"),
         (alone(|s| (s.surface.iso, s.surface.shows) = (Some(90.0), Shows::Normal)), "surface.shows"),
-        (alone(|s| s.effects.background = Some("no-such-picture.png".into())), "no-such-picture.png"),
-        (alone(|s| s.effects.background = Some("Cargo.toml".into())), "not a picture"),
+        (alone(|s| s.effects.behind = Some("no-such-picture.png".into())), "no-such-picture.png"),
+        (alone(|s| s.effects.behind = Some("Cargo.toml".into())), "not a picture"),
         (alone(|s| s.effects.background_distance = -1.0), "background_distance"),
         (alone(|s| s.effects.background_squares = 0.0), "background_squares"),
     ] {

@@ -1,6 +1,7 @@
 //! Rows of resources: what is told of their sizes is what the host makes, and what is built has a recipe.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use depthleap::method::METHODS;
 use depthleap::part::resource::{Facts, Origin, Resource};
@@ -9,8 +10,10 @@ use depthleap::plan::builds::Asset;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::resource::{self, RESOURCES, order};
+use depthleap::scene::backdrop::{Backdrop, Pattern};
+use depthleap::scene::environment::Picture;
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, ClipSettings, Distance, LightSettings, MeshSettings};
+use depthleap::scene::settings::{Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use depthleap::structure::Lookup;
@@ -50,7 +53,23 @@ fn scenes() -> Vec<Scene> {
     });
     let reflecting = scene(|s| (s.surface.iso, s.environment.builtin) = (Some(90.0), Some("sky".to_owned())));
     let cells = scene(|s| s.method.cell = 4);
-    vec![reflecting, surface, coloured_light, scene(|_| {}), cells, coloured, holes, table, polygons, cut, clipped]
+    let mut bent = scene(|s| s.effects.refraction = Some(Refraction { points: vec![[0.2, 1.0], [0.8, 1.5]] }));
+    let picture = Picture { size: [3, 2], texels: vec![[0.25, 0.5, 1.0]; 6] };
+    bent.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.5 }));
+    vec![
+        bent,
+        reflecting,
+        surface,
+        coloured_light,
+        scene(|_| {}),
+        cells,
+        coloured,
+        holes,
+        table,
+        polygons,
+        cut,
+        clipped,
+    ]
 }
 
 fn hole_at_7(i: usize) -> f32 {

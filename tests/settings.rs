@@ -35,7 +35,7 @@ const WITHOUT_KEY: [(&str, &str); 7] = [
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 16] = [
+const WITHOUT_RANGE: [(&str, &str); 18] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.mesh", "a name"),
@@ -49,8 +49,10 @@ const WITHOUT_RANGE: [(&str, &str); 16] = [
     ("surface.levels", "tables, each with its checks"),
     ("environment.image", "a name"),
     ("environment.builtin", "a name"),
+    ("effects.background", "a name"),
     ("effects.file", "a name"),
     ("effects.hash", "held against the file"),
+    ("effects.refraction", "a table, whose numbers are held against theirs"),
     ("effects.translucency", "a table, whose numbers are held against theirs"),
 ];
 
@@ -58,7 +60,7 @@ const WITHOUT_RANGE: [(&str, &str); 16] = [
 const TRANSFER: [&str; 3] = ["transfer.preset", "transfer.file", "transfer.points"];
 
 /// Values of options that neither their words nor their limits tell.
-const VALUES: [(&str, &str); 9] = [
+const VALUES: [(&str, &str); 10] = [
     ("range", "1%,99%"),
     ("no-data", "-9999,-1"),
     ("dims", "3,2,1"),
@@ -68,6 +70,7 @@ const VALUES: [(&str, &str); 9] = [
     ("iso", "120.5"),
     ("iso-width", "8"),
     ("environment", "sky"),
+    ("refraction", "0.2:1,0.4:1.5"),
 ];
 
 fn path(key: &Key) -> String {

@@ -124,7 +124,7 @@ pub fn scene_name(settings: &Settings) -> String {
     let environment = settings.environment.image.is_some() || settings.environment.builtin.is_some();
     let around = environment.then(|| "an environment".to_owned());
     let refracts = settings.effects.refraction.is_some().then(|| "refraction".to_owned());
-    let behind = settings.effects.background.is_some().then(|| "a background".to_owned());
+    let behind = settings.effects.behind.is_some().then(|| "a background".to_owned());
     let effect = settings.effects.file.as_deref().and_then(Path::file_stem);
     let effect = effect.map(|stem| format!("the effect {}", stem.to_string_lossy()));
     let geometry: Vec<String> =

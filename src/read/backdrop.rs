@@ -13,7 +13,7 @@ use crate::scene::settings::{CHECKER, EffectsSettings};
 /// # Errors
 /// When the file is not a picture that can be taken.
 pub fn backdrop(settings: &EffectsSettings) -> Result<Option<Backdrop>> {
-    let Some(name) = &settings.background else { return Ok(None) };
+    let Some(name) = &settings.behind else { return Ok(None) };
     let pattern = match name.as_path() == Path::new(CHECKER) {
         true => Pattern::Checker(settings.background_squares),
         false => Pattern::Picture(picture(name)?),

@@ -8,8 +8,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 
+use depthleap::frame::Resident;
 use depthleap::vulkan::{Device, Instance, pick};
 use libtest_mimic::{Arguments, Failed, Trial};
 
@@ -127,6 +128,33 @@ pub fn open(single_queue: bool) -> depthleap::Result<Arc<Device>> {
     Device::new(&instance, &info, single_queue)
 }
 
+/// What frames on the device under test are drawn with, between one test and the next: drivers take most of the tests' time to
+/// compile pipelines, which many scenes share.
+static KEPT: Mutex<Kept> = Mutex::new(Kept { device: Weak::new(), resident: None });
+
+struct Kept {
+    /// The device under test.
+    device: Weak<Device>,
+    /// Pipelines, and nothing of a scene; none while a test has them.
+    resident: Option<Resident>,
+}
+
+/// Pipelines of earlier tests, where no other test has them and the device is the one under test; else none yet.
+pub fn lent(device: &Arc<Device>) -> Resident {
+    let mut kept = KEPT.lock().expect("no test holds it");
+    let known = Weak::as_ptr(&kept.device) == Arc::as_ptr(device);
+    kept.resident.take_if(|_| known).unwrap_or_else(|| Resident::new(device))
+}
+
+/// Takes pipelines of the device back, for later tests.
+pub fn give_back(device: &Arc<Device>, mut resident: Resident) {
+    resident.forget_scene();
+    let mut kept = KEPT.lock().expect("no test holds it");
+    if Weak::as_ptr(&kept.device) == Arc::as_ptr(device) {
+        kept.resident.get_or_insert(resident);
+    }
+}
+
 /// Messages of a test that are printed.
 const MESSAGES: usize = 3;
 
@@ -177,6 +205,9 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
         }
         Err(error) => eprintln!("NO DEVICE UNDER TEST, every test of this program is skipped: {error}"),
     }
+    if let Ok(device) = &device {
+        KEPT.lock().expect("no test has begun").device = Arc::downgrade(device);
+    }
     let mut skipped = BTreeMap::new();
     let trials = tests.into_iter().map(|test| trial(test, device.as_ref().ok(), &mut skipped)).collect();
     for (missing, names) in &skipped {
@@ -187,6 +218,7 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
     if conclusion.num_ignored > 0 {
         eprintln!("{} test(s) SKIPPED, for the reasons above", conclusion.num_ignored);
     }
+    KEPT.lock().expect("no test holds it").resident = None;
     match device.map_or_else(|_| Vec::new(), closed) {
         messages if messages.is_empty() => conclusion.exit_code(),
         messages => {

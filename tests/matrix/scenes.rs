@@ -233,7 +233,7 @@ const KINDS: [(&str, Change); 71] = [
     }),
     ("rays that bend in front of a checker", |s| {
         s.effects.refraction = index(&[[0.25, 1.0], [1.0, 1.3]]);
-        (s.effects.background, s.effects.background_squares) = (Some("checker".into()), 5.0);
+        (s.effects.behind, s.effects.background_squares) = (Some("checker".into()), 5.0);
     }),
     ("rays that bend in light, cut by a plane", |s| {
         (s.effects.refraction, s.lights) = (index(&[[0.3, 1.0], [0.7, 0.8], [1.0, 1.2]]), two_lights());
@@ -248,7 +248,7 @@ const KINDS: [(&str, Change); 71] = [
         (s.effects.refraction, s.method.planner) = (index(&[[0.0, 1.2], [1.0, 1.2]]), false);
     }),
     ("an iso-surface in front of a checker", |s| {
-        (s.surface.iso, s.effects.background) = (Some(90.0), Some("checker".into()));
+        (s.surface.iso, s.effects.behind) = (Some(90.0), Some("checker".into()));
         s.effects.background_squares = 5.0;
     }),
 ];

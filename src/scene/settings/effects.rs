@@ -52,8 +52,8 @@ section! {
 
     /// What is behind the volume: "checker", or a picture (PNG, Radiance HDR or OpenEXR) relative to the scene file
     #[serde(skip_serializing_if = "Option::is_none", with = "crate::scene::file_name")]
-    #[arg(id = "behind", long = "behind", value_name = "checker|FILE")]
-    background?: PathBuf;
+    #[arg(long, value_name = "checker|FILE")]
+    behind as "background"?: PathBuf;
 
     /// How far the background is behind the corner of the volume that is farthest from the eye, in volume units
     #[arg(long = "behind-distance", value_name = "UNITS", allow_negative_numbers = true)]

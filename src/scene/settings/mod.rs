@@ -143,7 +143,7 @@ impl Settings {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
         let clips = self.clips.iter_mut().flat_map(|clip| [&mut clip.path, &mut clip.volume]);
         let own = [&mut self.volume.path, &mut self.volume.mesh, &mut self.transfer.file];
-        let background = self.effects.background.iter_mut().filter(|name| name.as_os_str() != CHECKER);
+        let background = self.effects.behind.iter_mut().filter(|name| name.as_os_str() != CHECKER);
         own.into_iter()
             .chain([&mut self.environment.image, &mut self.effects.file])
             .chain(meshes)

@@ -55,7 +55,7 @@ fn constant(device: &Arc<Device>) {
 fn leaps(device: &Arc<Device>) {
     let scene = scene("blocks:40", "ramp", |s| {
         exactly(s);
-        (s.image.size, s.effects.background) = ([50, 40], Some("checker".into()));
+        (s.image.size, s.effects.behind) = ([50, 40], Some("checker".into()));
         bending(s, &[[0.3, 1.0], [0.9, 1.3]]);
     });
     let mut stage = Stage::new(device);
@@ -73,7 +73,7 @@ fn seamless(device: &Arc<Device>) {
     let [width, height] = [40, 30];
     let scene = scene("shells:20", "ramp", |s| {
         exactly(s);
-        (s.image.size, s.effects.background) = ([width, height], Some("checker".into()));
+        (s.image.size, s.effects.behind) = ([width, height], Some("checker".into()));
         s.transfer.preset = None;
         s.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0]]);
     });

@@ -16,7 +16,7 @@ use depthleap::vulkan::Device;
 
 use super::law::trusted;
 use super::matrix_scenes;
-use crate::harness::{share, some_forms};
+use crate::harness::{self, share, some_forms};
 
 /// A scene by its volume (`shells:48`, or a file of `../shared/data`) and transfer function.
 pub fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -182,8 +182,8 @@ pub struct Shot {
 
 impl Stage {
     pub fn new(device: &Arc<Device>) -> Self {
-        let resident = Resident::new(device);
-        Self { device: device.clone(), structures: Structures::default(), resident, early_end: None }
+        let (structures, resident) = (Structures::default(), harness::lent(device));
+        Self { device: device.clone(), structures, resident, early_end: None }
     }
 
     /// Makes room for another volume or transfer function; what was compiled stays.
@@ -208,6 +208,13 @@ impl Stage {
         let plan = plan::plan(scene, form).expect("a plan");
         self.structures.prepare(scene, &plan);
         cpu::run(scene, &plan, &self.structures, self.device.info.sub_pixel_bits)
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        let resident = std::mem::replace(&mut self.resident, Resident::new(&self.device));
+        harness::give_back(&self.device, resident);
     }
 }
 

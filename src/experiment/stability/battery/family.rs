@@ -19,7 +19,7 @@ fn case(name: &str, builtin: &str) -> StabilityCase {
 fn bending(name: &str, builtin: &str, points: &[[f64; 2]]) -> StabilityCase {
     case(name, builtin).with(|s| {
         s.effects.refraction = Some(Refraction { points: points.to_vec() });
-        (s.effects.background, s.effects.background_squares) = (Some("checker".into()), 4.0);
+        (s.effects.behind, s.effects.background_squares) = (Some("checker".into()), 4.0);
     })
 }
 
@@ -71,7 +71,7 @@ pub fn cases() -> Vec<StabilityCase> {
         bending("an index that jumps", "gaussian:12", &[[0.5, 1.0], [0.5, 1.5]])
             .expect(Expect::Refused("effects.refraction"), ROUNDING),
         case("a checker at the volume itself", "gaussian:24")
-            .with(|s| s.effects.background = Some("checker".into()))
+            .with(|s| s.effects.behind = Some("checker".into()))
             .with(|s| (s.effects.background_distance, s.effects.background_squares) = (0.0, 3.0)),
     ]
 }
