@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use shaderc::{CompileOptions, Compiler, ResolvedInclude, ShaderKind};
+use shaderc::{CompileOptions, Compiler, OptimizationLevel, ResolvedInclude, ShaderKind};
 
 use super::source::{Broken, Text, stage};
 
@@ -16,12 +16,24 @@ pub struct CompiledModule {
 
 /// Compiles a shader with these defines for Vulkan 1.3, as SPIR-V 1.5, optimised.
 ///
-/// Debug information stays in: the optimiser strips the names of bindings and members without it, and bindings
-/// are made by name.
-///
 /// # Errors
 /// What the compiler says, each fault with its file and line.
 pub fn compile(text: &Text, defines: &[&str]) -> Result<CompiledModule, Broken> {
+    compile_to(text, defines, OptimizationLevel::Performance)
+}
+
+/// Compiles a shader as [`compile`] does, but for the optimiser, which takes most of the time: what a module declares is known
+/// without it.
+///
+/// # Errors
+/// What the compiler says, each fault with its file and line.
+pub fn compile_unoptimised(text: &Text, defines: &[&str]) -> Result<CompiledModule, Broken> {
+    compile_to(text, defines, OptimizationLevel::Zero)
+}
+
+/// Debug information stays in: the optimiser strips the names of bindings and members without it, and bindings
+/// are made by name.
+fn compile_to(text: &Text, defines: &[&str], level: OptimizationLevel) -> Result<CompiledModule, Broken> {
     let shown = text.shown(&text.file);
     let broken = |text: String| Broken { place: shown.clone(), text };
     let kind = match stage(&text.file) {
@@ -33,7 +45,7 @@ pub fn compile(text: &Text, defines: &[&str]) -> Result<CompiledModule, Broken> 
     let mut options = CompileOptions::new().map_err(|error| broken(error.to_string()))?;
     options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_3 as u32);
     options.set_target_spirv(shaderc::SpirvVersion::V1_5);
-    options.set_optimization_level(shaderc::OptimizationLevel::Performance);
+    options.set_optimization_level(level);
     options.set_generate_debug_info();
     options.set_include_callback(|path, _, _, _| {
         text.include(path).map(|(resolved_name, content)| ResolvedInclude { resolved_name, content })

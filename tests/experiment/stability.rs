@@ -38,24 +38,23 @@ impl Integrator for Twin {
     }
 }
 
-/// Of each case of the groups whose names begin so, but those of thousands of passes, by one method.
-fn outcomes(method: MethodName, groups: &str, mut integrator: Twin) -> Vec<(StabilityCase, Outcome)> {
+/// Of each case of the groups whose names begin so, but those of thousands of passes, by one method; judged when asked for.
+fn outcomes(method: MethodName, groups: &str, mut integrator: Twin) -> impl Iterator<Item = (StabilityCase, Outcome)> {
     let cases = battery().into_iter().filter(|case| !case.name.contains("5461 passes"));
-    let of_groups = cases.filter(|case| case.group.starts_with(groups));
-    of_groups
-        .filter_map(|case| {
-            let outcome = judge(&case, &[method], &mut integrator).unwrap().pop()?;
-            Some((case, outcome))
-        })
-        .collect()
+    let of_groups = cases.filter(move |case| case.group.starts_with(groups));
+    of_groups.filter_map(move |case| {
+        let outcome = judge(&case, &[method], &mut integrator).unwrap().pop()?;
+        Some((case, outcome))
+    })
 }
 
-fn wrong(integrator: Twin, groups: &str) -> Vec<String> {
+/// The first case of the groups that the integrator gets wrong.
+fn first_wrong(integrator: Twin, groups: &str) -> Option<String> {
     let wrong = |(case, outcome): (StabilityCase, Outcome)| {
         (outcome.verdict == StabilityVerdict::Wrong)
             .then(|| format!("{}: {}: {:?}", case.group, case.name, outcome.remark))
     };
-    outcomes(method::NN_OMNI.name(), groups, integrator).into_iter().filter_map(wrong).collect()
+    outcomes(method::NN_OMNI.name(), groups, integrator).find_map(wrong)
 }
 
 #[test]
@@ -104,9 +103,7 @@ fn broken_integrators_fail() {
         ),
     ];
     for (name, integrator, group) in broken {
-        let wrong = wrong(integrator, group);
-        println!("{name}: {} cases", wrong.len());
-        assert!(!wrong.is_empty(), "{name}");
+        println!("{name}: {}", first_wrong(integrator, group).expect(name));
     }
 }
 

@@ -1,7 +1,7 @@
 //! The matrix: every method on every scene of `tests/matrix/scenes.rs`, in every form on one or another. Whatever is in its tables is in
 //! it: nothing here names a method, a form or a feature.
 //!
-//! The forms of a method take turns, so that a scene has every other one and two scenes on end have all of them; so do loops, whose
+//! The forms of a method take turns, so that a scene has every third one and three scenes on end have all of them; so do loops, whose
 //! shaders take most of the time. `DEPTHLEAP_ALL_FORMS` draws every scene in every form by every loop.
 //!
 //! Of each frame: it runs without a message of the validation layer (the harness sees to that); it is its f64 twin's;
@@ -101,8 +101,8 @@ fn left_out(view: usize, number: usize, depths: &[DepthFormat]) -> bool {
     }
 }
 
-/// The forms that a scene by a method is drawn in: from within in one of them by `turn`; from outside in `every` one, else in every other
-/// one from the first or second on by `turn`, or in a single one where other drivers have more of them.
+/// The forms that a scene by a method is drawn in: from within in one of them by `turn`; from outside in `every` one, else in every third
+/// one, which one first by `turn`, or in a single one where other drivers have more of them.
 fn forms_from(view: usize, device: &Arc<Device>, scene: &Scene, turn: usize, every: bool) -> Vec<Option<Form>> {
     let forms = match every {
         true => right_forms(device, scene.settings.method.name),

@@ -100,12 +100,15 @@ pub fn forms_here(device: &Arc<Device>, scene: &Scene) -> Vec<Option<Form>> {
     }
 }
 
-/// The forms that one of two tests of a scene draws it in: as [`forms_here`] or, where that is all of them, every other one from the
-/// first or second on by `turn`. Both tests have all of them between them.
+/// Tests of one scene, or scenes on end, that have all forms of a method between them.
+const TURNS: usize = 3;
+
+/// The forms that a scene is drawn in at its turn: as [`forms_here`] or, where that is all of them, one in [`TURNS`] of them from the
+/// first, second or third on.
 pub fn forms_in_turn(device: &Arc<Device>, scene: &Scene, turn: usize) -> Vec<Option<Form>> {
     let forms = forms_here(device, scene);
-    let first = turn % 2 % forms.len();
-    forms.into_iter().skip(first).step_by(2).collect()
+    let first = turn % TURNS % forms.len();
+    forms.into_iter().skip(first).step_by(TURNS).collect()
 }
 
 /// The forms of a method that the self-check found right; where another driver draws in all forms, those with the bounds test.
