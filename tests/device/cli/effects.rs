@@ -6,15 +6,15 @@ use depthleap::vulkan::Device;
 
 use super::SMALL;
 use super::program::Place;
-use crate::harness::{Test, test};
+use crate::harness::{Need, Test, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
-        test("an effect is named with its hash and repeated from a run", repeated),
-        test("an effect that does not compile ends the run at its own line", broken),
+        test("an effect is named with its hash and repeated from a run", repeated).needs(Need::AnyDriver),
+        test("an effect that does not compile ends the run at its own line", broken).needs(Need::AnyDriver),
         test("an effect that never ends is given up", endless),
         test("an effect that reads what is not there does no harm", beyond),
-        test("benches name effects in their pages and have no error", benched),
+        test("benches name effects in their pages and have no error", benched).needs(Need::AnyDriver),
     ]
 }
 
