@@ -36,7 +36,8 @@ fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
 }
 
 /// All shaders that may be asked for, each compiled once for all tests, by the compiler itself: it has warnings that a module kept on
-/// disk has not. The optimiser, which takes most of the time, changes nothing of what is asked of them here.
+/// disk has not. The optimiser, which takes most of the time, is left out: it
+/// may take constants and bindings away, and adds none. What it makes of them is held by the tests that draw.
 fn fresh() -> &'static [(Source, ShaderModule)] {
     static MODULES: OnceLock<Vec<(Source, ShaderModule)>> = OnceLock::new();
     MODULES.get_or_init(|| {

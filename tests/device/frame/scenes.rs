@@ -101,14 +101,14 @@ pub fn forms_here(device: &Arc<Device>, scene: &Scene) -> Vec<Option<Form>> {
 }
 
 /// Tests of one scene, or scenes on end, that have all forms of a method between them.
-const TURNS: usize = 3;
+const FORM_TURNS: usize = 3;
 
-/// The forms that a scene is drawn in at its turn: as [`forms_here`] or, where that is all of them, one in [`TURNS`] of them from the
+/// The forms that a scene is drawn in at its turn: as [`forms_here`] or, where that is all of them, one in [`FORM_TURNS`] of them from the
 /// first, second or third on.
 pub fn forms_in_turn(device: &Arc<Device>, scene: &Scene, turn: usize) -> Vec<Option<Form>> {
     let forms = forms_here(device, scene);
-    let first = turn % TURNS % forms.len();
-    forms.into_iter().skip(first).step_by(TURNS).collect()
+    let first = turn % FORM_TURNS % forms.len();
+    forms.into_iter().skip(first).step_by(FORM_TURNS).collect()
 }
 
 /// The forms of a method that the self-check found right; where another driver draws in all forms, those with the bounds test.
