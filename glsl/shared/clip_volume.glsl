@@ -18,17 +18,7 @@ layout(constant_id = 50) const bool KEEPS_INSIDE = true;
 // The value there, that on the nearest face beyond the box.
 float clip_value(vec3 voxel) {
     vec3 below = floor(voxel);
-    vec3 w = voxel - below;
-    ivec3 last = textureSize(clip_volume, 0) - 1;
-    ivec3 a = clamp(ivec3(below), ivec3(0), last);
-    ivec3 b = clamp(ivec3(below) + 1, ivec3(0), last);
-    vec4 x0 = vec4(texelFetch(clip_volume, ivec3(a.x, a.y, a.z), 0).r, texelFetch(clip_volume, ivec3(a.x, b.y, a.z), 0).r,
-                   texelFetch(clip_volume, ivec3(a.x, a.y, b.z), 0).r, texelFetch(clip_volume, ivec3(a.x, b.y, b.z), 0).r);
-    vec4 x1 = vec4(texelFetch(clip_volume, ivec3(b.x, a.y, a.z), 0).r, texelFetch(clip_volume, ivec3(b.x, b.y, a.z), 0).r,
-                   texelFetch(clip_volume, ivec3(b.x, a.y, b.z), 0).r, texelFetch(clip_volume, ivec3(b.x, b.y, b.z), 0).r);
-    vec4 x = mix_fused(x0, x1, w.x);
-    vec4 y = mix_fused(x.xzxz, x.ywyw, w.y);
-    return fma(w.z, y.y - y.x, y.x);
+    return interpolate(clip_volume, textureSize(clip_volume, 0) - 1, below, voxel - below);
 }
 
 // Whether a place of the ray is kept, so many steps from the entry point.

@@ -17,18 +17,21 @@ vec4 mix_fused(vec4 a, vec4 b, float w) {
     return fma(vec4(w), b - a, a);
 }
 
-float sample_exact(Place place) {
-    vec3 w = place.weight;
-    ivec3 last = ivec3(frame.dims.xyz) - 1;
-    ivec3 a = clamp(ivec3(place.below), ivec3(0), last);
-    ivec3 b = clamp(ivec3(place.below) + 1, ivec3(0), last);
-    vec4 x0 = vec4(texelFetch(volume, ivec3(a.x, a.y, a.z), 0).r, texelFetch(volume, ivec3(a.x, b.y, a.z), 0).r,
-                   texelFetch(volume, ivec3(a.x, a.y, b.z), 0).r, texelFetch(volume, ivec3(a.x, b.y, b.z), 0).r);
-    vec4 x1 = vec4(texelFetch(volume, ivec3(b.x, a.y, a.z), 0).r, texelFetch(volume, ivec3(b.x, b.y, a.z), 0).r,
-                   texelFetch(volume, ivec3(b.x, a.y, b.z), 0).r, texelFetch(volume, ivec3(b.x, b.y, b.z), 0).r);
+// The trilinear interpolant of a field between the voxels that begin at `below`, each clamped to what there is up to `last`.
+float interpolate(sampler3D field, ivec3 last, vec3 below, vec3 w) {
+    ivec3 a = clamp(ivec3(below), ivec3(0), last);
+    ivec3 b = clamp(ivec3(below) + 1, ivec3(0), last);
+    vec4 x0 = vec4(texelFetch(field, ivec3(a.x, a.y, a.z), 0).r, texelFetch(field, ivec3(a.x, b.y, a.z), 0).r,
+                   texelFetch(field, ivec3(a.x, a.y, b.z), 0).r, texelFetch(field, ivec3(a.x, b.y, b.z), 0).r);
+    vec4 x1 = vec4(texelFetch(field, ivec3(b.x, a.y, a.z), 0).r, texelFetch(field, ivec3(b.x, b.y, a.z), 0).r,
+                   texelFetch(field, ivec3(b.x, a.y, b.z), 0).r, texelFetch(field, ivec3(b.x, b.y, b.z), 0).r);
     vec4 x = mix_fused(x0, x1, w.x);
     vec4 y = mix_fused(x.xzxz, x.ywyw, w.y);
     return fma(w.z, y.y - y.x, y.x);
+}
+
+float sample_exact(Place place) {
+    return interpolate(volume, ivec3(frame.dims.xyz) - 1, place.below, place.weight);
 }
 
 // The value of the voxel whose centre is nearest, on each axis the later one of two that are as near.

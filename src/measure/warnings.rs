@@ -1,6 +1,7 @@
 //! What may make a run's picture mislead: what its plan says, and what the picture itself shows.
 
 use super::picture::Picture;
+use crate::feature::EARLY_ENDS;
 use crate::plan::{self, Plan};
 use crate::projection::{self, Ends};
 use crate::resource;
@@ -67,8 +68,11 @@ fn background_left(scene: &Scene, plan: &Plan) -> Option<String> {
     let termination = settings.sampling.termination;
     // Surfaces are opaque to the bit.
     let by_opacity = projection::of(settings).ends == Ends::Opaque && scene.surface.is_none();
-    let ends = by_opacity
-        && plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED));
+    let ends_rays = match plan.method.loops() {
+        true => plan.method.ends_rays && !plan.left_out.iter().any(|left_out| left_out.what == EARLY_ENDS.name),
+        false => plan.steps.iter().any(|step| step.accesses.iter().any(|access| access.resource == resource::STORED)),
+    };
+    let ends = by_opacity && ends_rays;
     let seen = settings.image.background.iter().any(|channel| *channel != 0.0);
     let left = 100.0 * (1.0 - termination);
     (ends && seen && left > 0.0).then(|| {

@@ -22,6 +22,7 @@ const SMALL: &str = "builtin:shells:24 --azimuth 31 --elevation 17 --viewport 24
 pub fn tests() -> Vec<Test> {
     let mut tests = vec![
         test("volume beyond the device's limit is refused", volume_beyond_the_limit),
+        test("clip volume beyond the device's limit is refused", clip_volume_beyond_the_limit),
         test("viewport beyond the device's limit is refused", viewport_beyond_the_limit),
         test("unknown device is refused with those there are", unknown_device),
         test("cull bounds is refused without depth bounds", bounds_without_the_feature).needs(Need::NoDepthBounds),
@@ -36,6 +37,7 @@ pub fn tests() -> Vec<Test> {
         test("validation finds nothing", validation_finds_nothing).needs(Need::Thoroughness),
         test("voxels that are no numbers give finite pictures", policies_agree).needs(Need::AnyDriver),
         test("all methods write the same picture", methods_agree_as_files).needs(Need::AnyDriver),
+        test("background in what is opaque comes with a warning", background_that_stays).needs(Need::AnyDriver),
         test("cull bounds gives the picture of ztest", bounds_and_ztest_agree)
             .needs(Need::DepthBounds)
             .needs(Need::Thoroughness),
@@ -139,6 +141,25 @@ fn volume_beyond_the_limit(device: &Arc<Device>) {
     place.done(&format!("render {arguments} --method cpu -o a.npy"));
 }
 
+fn clip_volume_beyond_the_limit(device: &Arc<Device>) {
+    let place = Place::new();
+    let side = device.info.max_image_3d + 1;
+    let mut file = format!(
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 {side}\nspacings: 1000 1000 1\nencoding: raw\n\n"
+    )
+    .into_bytes();
+    file.extend((0..side).map(|i| i as u8));
+    place.file("cut.nrrd", file);
+    place.file("a.toml", "[volume]\nbuiltin = \"shells:12\"\n[[clip]]\nvolume = \"cut.nrrd\"\niso = 100\n");
+    let limit = format!("at most {} a side", device.info.max_image_3d);
+    place.refused(
+        "render a.toml --method single-pass --viewport 12x8 -o a.png",
+        4,
+        &["cut.nrrd", &format!("[1, 1, {side}]"), &device.info.name, &limit, "smaller clip volume"],
+    );
+    assert!(!place.path().join("a.png").exists());
+}
+
 fn viewport_beyond_the_limit(device: &Arc<Device>) {
     let place = Place::new();
     let limit = device.info.max_viewport[0].min(device.info.max_image_2d);
@@ -147,6 +168,23 @@ fn viewport_beyond_the_limit(device: &Arc<Device>) {
         let parts = [&format!("--viewport) {size}"), &device.info.name, &format!("at most {limit}x")];
         place.refused(&format!("render --viewport {size} -o a.png"), 4, &parts.map(String::as_str));
     }
+}
+
+/// Rays that end early, in passes or in a loop, leave some of what is behind them.
+fn background_that_stays(_: &Arc<Device>) {
+    let place = Place::new();
+    place.file("white.toml", "[volume]\nbuiltin = \"shells:24\"\n[image]\nbackground = [1, 1, 1]\n");
+    let warned = |scene: &str, method: &str, termination: &str| {
+        let arguments = format!("--viewport 24x18 --tf surface --method {method} --termination {termination}");
+        let rendered = place.done(&format!("render {scene} {arguments} -o a.png"));
+        rendered.err.contains("up to 5.000 % of the background stays in what is opaque")
+    };
+    for method in ["rc-ert", "nn-omni", "single-pass", "single-pass-omni+compute"] {
+        assert!(warned("white.toml", method, "0.95"), "{method}");
+        assert!(!warned("white.toml", method, "1"), "{method}, whose rays do not end early");
+        assert!(!warned("builtin:shells:24", method, "0.95"), "{method} over black");
+    }
+    assert!(!warned("white.toml", "rc", "0.95"), "rays of rc do not end early");
 }
 
 fn unknown_device(device: &Arc<Device>) {
