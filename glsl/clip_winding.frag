@@ -2,6 +2,7 @@
 // often than it leaves it, it begins in.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+//@takes [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"

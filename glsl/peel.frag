@@ -10,7 +10,7 @@
 // and a layer with it [Thesis ch. 6 §3]. The picture is the same, and so is what main passes read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [LAYER_BEFORE], [OPAQUE], [COLORED], [CLIPPED], [CLIP_FIRST], [PLANES]
+//@takes [LAYER_BEFORE], [OPAQUE], [COLORED], [CLIPPED], [CLIP_FIRST], [PLANES], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"

@@ -2,11 +2,13 @@
 #version 460
 
 layout(set = 0, binding = 14, std140) uniform Placement {
-    vec4 eye;
+    // Where the rays of the view come from.
+    vec4 origin;
+    // Clip coordinates are the products of these with the arm from there to a point, and with 1.
     vec4 x;
     vec4 y;
+    vec4 z;
     vec4 w;
-    float near;
 } placement;
 
 layout(location = 0) in vec3 corner;
@@ -14,8 +16,8 @@ layout(location = 0) in vec3 corner;
 layout(location = 0) flat out uint triangle;
 
 void main() {
-    vec3 arm = corner - placement.eye.xyz;
-    float w = dot(arm, placement.w.xyz);
-    gl_Position = vec4(dot(arm, placement.x.xyz), dot(arm, placement.y.xyz), w - placement.near, w);
+    vec3 arm = corner - placement.origin.xyz;
+    mat4x3 rows = mat4x3(placement.x.xyz, placement.y.xyz, placement.z.xyz, placement.w.xyz);
+    gl_Position = arm * rows + vec4(placement.x.w, placement.y.w, placement.z.w, placement.w.w);
     triangle = uint(gl_VertexIndex) / 3u;
 }

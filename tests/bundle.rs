@@ -6,11 +6,11 @@ use depthleap::scene::Field;
 use depthleap::scene::Volume;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::volume::Voxels;
-use depthleap::structure::LookupView;
 use depthleap::structure::bundle::{Bundles, along};
 use depthleap::structure::distance::omni;
 use depthleap::structure::grid::{DistanceField, FAR, Grid, OCTANTS, SLACK, byte_of, octant_of};
 use depthleap::structure::octants::directional;
+use depthleap::structure::{LookupView, RaysFrom};
 use glam::DVec3;
 use random::Random;
 
@@ -79,6 +79,14 @@ impl Space {
 
     fn volume(&self, point: DVec3) -> DVec3 {
         (point + 0.5 * self.spacing) * self.finest + self.corner
+    }
+
+    /// The direction of the view's ray through a point, in voxels.
+    fn way(&self, from: RaysFrom, point: DVec3) -> Option<DVec3> {
+        match from {
+            RaysFrom::Eye(eye) => (point - self.voxels(eye)).try_normalize(),
+            RaysFrom::Along(direction) => Some(direction),
+        }
     }
 
     fn faces(&self) -> [DVec3; 2] {
@@ -157,7 +165,7 @@ impl Case {
         if !self.targets.is_empty() && random.below(8) > 0 {
             let target = self.targets[random.below(self.targets.len())];
             at = point(random, self.space.cell(&self.grid, target));
-            at += (self.space.voxels(view.eye) - at).normalize_or_zero() * random.between(1.0, 30.0);
+            at -= self.space.way(view.from, at).unwrap_or_default() * random.between(1.0, 30.0);
         }
         let cell = (at / self.grid.sides).floor();
         [0, 1, 2].map(|a| (cell[a].max(0.0) as usize).min(self.grid.cells[a] - 1))
@@ -189,13 +197,18 @@ fn random_case(random: &mut Random) -> Case {
 }
 
 /// Rays through random points of random cells go as far as they are told.
-fn assert_bounds(seed: u64, cone: bool, ray: impl Fn(&mut Random, &Case, &LookupView, DVec3) -> Option<DVec3>) {
+fn assert_bounds(
+    seed: u64,
+    cone: bool,
+    from: impl Fn(&mut Random, &Space) -> RaysFrom,
+    ray: impl Fn(&mut Random, &Case, &LookupView, DVec3) -> Option<DVec3>,
+) {
     let mut random = Random(seed);
     let (mut jumped, mut met) = (0, 0);
     for _ in 0..400 {
         let case = random_case(&mut random);
         let half_angle = cone.then(|| [0.01, 1.0, 10.0, 30.0, 60.0][random.below(5)]).map(f64::to_radians);
-        let view = LookupView { eye: random_eye(&mut random, &case.space), half_angle };
+        let view = LookupView { from: from(&mut random, &case.space), half_angle };
         let found = made(&case.field, &case.grid, &case.mask, &view);
         assert_eq!((found.octants, found.bytes.len()), (1, case.grid.count()));
         for _ in 0..400 {
@@ -221,34 +234,69 @@ fn assert_bounds(seed: u64, cone: bool, ray: impl Fn(&mut Random, &Case, &Lookup
 
 /// Within an angle of a direction, often at that angle.
 fn within(random: &mut Random, direction: DVec3, angle: f64) -> DVec3 {
-    let side = direction.cross(random.direction()).normalize();
     let angle = if random.below(2) == 0 { angle } else { angle * random.next() };
+    at_angle(random, direction, angle)
+}
+
+/// At an angle to a direction.
+fn at_angle(random: &mut Random, direction: DVec3, angle: f64) -> DVec3 {
+    let side = direction.cross(random.direction()).normalize();
     direction * angle.cos() + side * angle.sin()
+}
+
+fn an_eye(random: &mut Random, space: &Space) -> RaysFrom {
+    RaysFrom::Eye(random_eye(random, space))
+}
+
+/// Rays along any direction, often along an axis.
+fn far_away(random: &mut Random, _: &Space) -> RaysFrom {
+    RaysFrom::Along(match random.below(3) {
+        0 => DVec3::AXES[random.below(3)],
+        _ => random.direction(),
+    })
 }
 
 #[test]
 fn optimal_holds_for_every_ray_of_the_eye() {
-    assert_bounds(40, false, |_, case, view, from| (from - case.space.voxels(view.eye)).try_normalize());
+    assert_bounds(40, false, an_eye, |_, case, view, from| case.space.way(view.from, from));
+}
+
+#[test]
+fn optimal_holds_for_every_ray_of_an_orthographic_view() {
+    assert_bounds(45, false, far_away, |_, case, view, from| case.space.way(view.from, from));
+}
+
+#[test]
+fn cone_holds_for_every_direction_it_serves_of_orthographic_views() {
+    assert_bounds(46, true, far_away, |random, case, view, from| {
+        let own = case.space.way(view.from, from)?;
+        let moved = within(random, own, 0.999 * view.half_angle?);
+        let serves = |way: DVec3| view.serves(&case.grid, &case.field, RaysFrom::Along(way));
+        assert!(serves(moved) && !serves(at_angle(random, own, 1.001 * view.half_angle?)));
+        assert!(!view.serves(&case.grid, &case.field, RaysFrom::Eye(own)));
+        Some(moved)
+    });
 }
 
 #[test]
 fn cone_holds_for_every_direction_within_the_half_angle_of_the_views() {
-    assert_bounds(41, true, |random, case, view, from| {
-        let own = (from - case.space.voxels(view.eye)).try_normalize()?;
+    assert_bounds(41, true, an_eye, |random, case, view, from| {
+        let own = case.space.way(view.from, from)?;
         Some(within(random, own, view.half_angle?))
     });
 }
 
 #[test]
 fn cone_holds_for_every_eye_it_serves() {
-    assert_bounds(42, true, |random, case, view, from| {
+    assert_bounds(42, true, an_eye, |random, case, view, from| {
         let [low, high] = case.space.faces();
-        let eye = case.space.voxels(view.eye);
+        let RaysFrom::Eye(eye) = view.from else { return None };
+        let eye = case.space.voxels(eye);
         let allowed = view.half_angle?.sin() * (eye - eye.clamp(low, high)).length();
         let away = random.direction();
-        let serves = |eye: DVec3| view.serves(&case.grid, &case.field, case.space.volume(eye));
+        let serves = |eye: DVec3| view.serves(&case.grid, &case.field, RaysFrom::Eye(case.space.volume(eye)));
         if allowed < 1e-3 {
-            assert!(!serves(eye + away * (allowed + 1e-3)) && view.serves(&case.grid, &case.field, view.eye));
+            assert!(!serves(eye + away * (allowed + 1e-3)) && view.serves(&case.grid, &case.field, view.from));
             return None;
         }
         let moved = eye + away * (allowed - 1e-4) * 0.9999;
@@ -262,12 +310,17 @@ fn optimal_serves_its_own_eye_only() {
     let field = volume([9; 3], [1.0; 3]);
     for half_angle in [None, Some(0.2)] {
         let grid = Grid::new(&field, 1);
-        let outside = LookupView { eye: DVec3::new(0.1, 0.2, 1.9), half_angle };
-        assert!(outside.serves(&grid, &field, outside.eye));
-        assert_eq!(outside.serves(&grid, &field, outside.eye + 1e-12 * DVec3::X), half_angle.is_some());
-        let inside = LookupView { eye: DVec3::splat(0.1), half_angle };
-        assert!(inside.serves(&grid, &field, inside.eye));
-        assert!(!inside.serves(&grid, &field, inside.eye + 1e-12 * DVec3::X));
+        let made_for = |from: RaysFrom| LookupView { from, half_angle };
+        let (outside, inside) = (DVec3::new(0.1, 0.2, 1.9), DVec3::splat(0.1));
+        let beside = 1e-12 * DVec3::X;
+        for (eye, moves) in [(outside, half_angle.is_some()), (inside, false)] {
+            let view = made_for(RaysFrom::Eye(eye));
+            assert!(view.serves(&grid, &field, view.from));
+            assert_eq!(view.serves(&grid, &field, RaysFrom::Eye(eye + beside)), moves);
+        }
+        let along = made_for(RaysFrom::Along(DVec3::NEG_Z));
+        assert!(along.serves(&grid, &field, along.from));
+        assert_eq!(along.serves(&grid, &field, RaysFrom::Along(DVec3::NEG_Z + beside)), half_angle.is_some());
     }
 }
 
@@ -278,7 +331,7 @@ fn bounds_of_a_cell_stand_in_order() {
         let case = random_case(&mut random);
         let eye = random_eye(&mut random, &case.space);
         let (any, each) = (omni(&case.grid, &case.mask), directional(&case.grid, &case.mask));
-        let view = |half_angle: Option<f64>| LookupView { eye, half_angle };
+        let view = |half_angle: Option<f64>| LookupView { from: RaysFrom::Eye(eye), half_angle };
         let optimal = made(&case.field, &case.grid, &case.mask, &view(None));
         let wide = made(&case.field, &case.grid, &case.mask, &view(Some(0.4)));
         let narrow = made(&case.field, &case.grid, &case.mask, &view(Some(0.02)));
@@ -327,7 +380,7 @@ fn optimal_is_as_long_as_a_bundle_can_be() {
         let case = random_case(&mut random);
         let [low, high] = case.space.faces();
         let eye = 0.5 * (low + high) + random.direction() * (high - low).length() * random.between(0.8, 3.0);
-        let view = LookupView { eye: case.space.volume(eye), half_angle: None };
+        let view = LookupView { from: RaysFrom::Eye(case.space.volume(eye)), half_angle: None };
         let found = made(&case.field, &case.grid, &case.mask, &view);
         for i in 0..case.grid.count() {
             let length = scaled_until_touch(&case, eye, place(&case.grid, i));
@@ -353,7 +406,7 @@ fn optimal_looks_along_the_rays_only() {
         mask[grid.index([2, 1, z])] = true;
     }
     let eye = DVec3::new(-0.001, 0.0, 3.0);
-    let view = LookupView { eye, half_angle: None };
+    let view = LookupView { from: RaysFrom::Eye(eye), half_angle: None };
     let found = made(&f, &grid, &mask, &view);
     assert_eq!(found.free([0, 1, 150], 0), Some(FAR), "leaves by the near side");
     assert_eq!(octant_of(DVec3::ZERO - eye), 4);
@@ -367,7 +420,7 @@ fn nothing_interesting_is_far_and_everything_is_near() {
         let f = volume(dims, [1.0; 3]);
         let grid = Grid::new(&f, 1);
         for half_angle in [None, Some(0.1)] {
-            let view = LookupView { eye: DVec3::new(0.3, 0.2, 4.0), half_angle };
+            let view = LookupView { from: RaysFrom::Eye(DVec3::new(0.3, 0.2, 4.0)), half_angle };
             let count = grid.count();
             assert_eq!(made(&f, &grid, &vec![false; count], &view).bytes, vec![byte_of(false, FAR); count]);
             assert_eq!(made(&f, &grid, &vec![true; count], &view).bytes, vec![0; count]);

@@ -82,7 +82,7 @@ fn chords(scene: &Scene, radius: f64) -> Vec<f64> {
     let plan = plan(scene, None).unwrap();
     let [width, height] = plan.view.size;
     let chord = |i: u32| {
-        let (eye, direction) = (plan.view.rays.eye, plan.view.rays.direction(i % width, i / width).normalize());
+        let (eye, direction) = (plan.view.rays.origin, plan.view.rays.of(i % width, i / width).direction.normalize());
         let middle = -eye.dot(direction);
         let apart = (eye + middle * direction).length();
         2.0 * (radius * radius - apart * apart).max(0.0).sqrt()
@@ -220,9 +220,10 @@ fn caps_lie_in_the_cut() {
         let (mut caps, mut all) = (0, 0);
         for (i, met) in frame.surfaces.iter().enumerate() {
             let Some(met) = met else { continue };
-            let direction = plan.view.rays.direction(i as u32 % width, i as u32 / width);
-            let (enter, _) = scene.interval(&plan.view.rays, direction).unwrap();
-            let place = plan.view.rays.eye + enter * direction + met.steps * step * direction.normalize();
+            let ray = plan.view.rays.of(i as u32 % width, i as u32 / width);
+            let direction = ray.direction;
+            let (enter, _) = scene.interval(&ray, plan.view.rays.near).unwrap();
+            let place = plan.view.rays.origin + enter * direction + met.steps * step * direction.normalize();
             all += 1;
             // Well within the ball, so that it is no place of its own surface.
             if place.length() < radius - 0.07 {

@@ -48,8 +48,8 @@ fn a_sphere_keeps_its_chords() {
     let mut longest = 0.0f64;
     for (i, whole) in whole.iter().enumerate() {
         assert!((inside[i] + outside[i] - whole).abs() < 1e-9, "pixel {i}: the parts are not the whole");
-        let direction = rays.direction(i as u32 % SIZE[0], i as u32 / SIZE[0]).normalize();
-        let nearest = rays.eye - rays.eye.dot(direction) * direction;
+        let direction = rays.of(i as u32 % SIZE[0], i as u32 / SIZE[0]).direction.normalize();
+        let nearest = rays.origin - rays.origin.dot(direction) * direction;
         let square = 0.16 - nearest.length_squared();
         let chord = 2.0 * square.max(0.0).sqrt();
         // Facets lie up to 8e-6 inside of the sphere: that shortens a chord the more the shorter it is.
@@ -102,10 +102,10 @@ fn the_thesis_cuts_in_front_of_the_first_surface_and_hides_meshes_there() {
     let (behind, inside) = (by(Keep::Thesis), by(Keep::Inside));
     let (first, within, whole) = (depths(&behind), depths(&inside), depths(&scene(Vec::new())));
     let rays = behind.camera.rays(SIZE).unwrap();
-    let uncovered = behind.polygons.uncovered(&rays, SIZE, |direction| behind.interval(&rays, direction).is_some());
+    let uncovered = behind.polygons.uncovered(&rays, SIZE, |ray| behind.interval(ray, rays.near).is_some());
     let half = ClipSettings { plane: Some([1.0, 0.0, 0.0, 0.0]), ..ClipSettings::default() };
     let cut = scene(vec![clip("sphere:200", Keep::Thesis), half]);
-    let of_half = cut.polygons.uncovered(&rays, SIZE, |direction| cut.interval(&rays, direction).is_some());
+    let of_half = cut.polygons.uncovered(&rays, SIZE, |ray| cut.interval(ray, rays.near).is_some());
     assert!(0 < of_half && 2 * of_half < uncovered + 2 * SIZE[1] as usize, "{of_half} of {uncovered} pixels");
     let mut missed = 0;
     for i in 0..whole.len() {

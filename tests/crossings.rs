@@ -89,10 +89,11 @@ fn rays(scene: &Scene) -> Vec<Option<(DVec3, DVec3, f64)>> {
     let [width, height] = plan.view.size;
     (0..width * height)
         .map(|i| {
-            let direction = plan.view.rays.direction(i % width, i / width);
-            let (enter, leave) = scene.interval(&plan.view.rays, direction)?;
+            let ray = plan.view.rays.of(i % width, i / width);
+            let direction = ray.direction;
+            let (enter, leave) = scene.interval(&ray, plan.view.rays.near)?;
             let length = direction.length();
-            Some((plan.view.rays.eye + enter * direction, direction / length, (leave - enter) * length))
+            Some((plan.view.rays.origin + enter * direction, direction / length, (leave - enter) * length))
         })
         .collect()
 }

@@ -104,13 +104,13 @@ fn mirror_shows_what_a_ball_reflects() {
     let radius = 0.5 * 0.3 * (-2.0 * ISO.ln()).sqrt();
     let (mut errors, mut of_frame): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     for (i, (exact, frame)) in exact.iter().zip(&frame.pixels).enumerate() {
-        let direction = rays.direction(i as u32 % size[0], i as u32 / size[0]).normalize();
-        let middle = rays.eye.dot(direction);
-        let inside = middle * middle - rays.eye.length_squared() + radius * radius;
+        let direction = rays.of(i as u32 % size[0], i as u32 / size[0]).direction.normalize();
+        let middle = rays.origin.dot(direction);
+        let inside = middle * middle - rays.origin.length_squared() + radius * radius;
         if exact[3] == 0.0 || frame[3] == 0.0 || inside < 0.01 {
             continue;
         }
-        let normal = (rays.eye + (-middle - inside.sqrt()) * direction) / radius;
+        let normal = (rays.origin + (-middle - inside.sqrt()) * direction) / radius;
         let seen = environment.color(direction - 2.0 * direction.dot(normal) * normal);
         errors.push(apart([exact[0], exact[1], exact[2]], seen));
         of_frame.push(apart([frame[0], frame[1], frame[2]], seen));

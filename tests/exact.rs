@@ -372,7 +372,7 @@ fn huge_values_stay_finite() {
 fn picture_holds_the_rays_of_the_view() {
     let f = noisy([4, 5, 3], [1.0, 1.0, 2.0], 12);
     let tf = colorful();
-    let camera = Camera { eye: dvec3(1.1, 0.7, 1.6), target: DVec3::ZERO, up: DVec3::Y, fov_y: 45.0 };
+    let camera = Camera { eye: dvec3(1.1, 0.7, 1.6), target: DVec3::ZERO, up: DVec3::Y, fov_y: 45.0, height: None };
     let rays: ViewRays = camera.rays([9, 7]).unwrap();
     let exact = ExactIntegrator::new(&f, &tf);
     let picture = exact.picture(&rays, [9, 7]);
@@ -381,9 +381,9 @@ fn picture_holds_the_rays_of_the_view() {
     let mut hits = 0;
     for row in 0..7 {
         for column in 0..9 {
-            let direction = rays.direction(column, row);
-            let Some((enter, leave)) = box_interval(rays.eye, direction, 0.5 * f.extent(), rays.near) else { continue };
-            let (from, to) = (rays.eye + enter * direction, rays.eye + leave * direction);
+            let ray = rays.of(column, row);
+            let Some((enter, leave)) = box_interval(&ray, 0.5 * f.extent(), rays.near) else { continue };
+            let (from, to) = (ray.at(enter), ray.at(leave));
             let expected = exact.ray(from, (to - from).normalize(), (to - from).length());
             assert_near(picture[(row * 9 + column) as usize], expected, 1e-9);
             hits += 1;

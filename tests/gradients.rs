@@ -109,9 +109,10 @@ fn normal_error(side: usize, operator: GradientOperator, texture: GradientTextur
     let (rays, step) = (plan.view.rays, scene.settings.sampling.step * scene.field.finest());
     let mut angles = Vec::new();
     for (i, met) in frame.surfaces.iter().enumerate() {
-        let direction = rays.direction(i as u32 % plan.view.size[0], i as u32 / plan.view.size[0]);
-        let (Some(met), Some((enter, _))) = (met, scene.interval(&rays, direction)) else { continue };
-        let place = rays.eye + enter * direction + met.steps * step * direction.normalize();
+        let ray = rays.of(i as u32 % plan.view.size[0], i as u32 / plan.view.size[0]);
+        let direction = ray.direction;
+        let (Some(met), Some((enter, _))) = (met, scene.interval(&ray, rays.near)) else { continue };
+        let place = rays.origin + enter * direction + met.steps * step * direction.normalize();
         let truth = gaussian.gradient(2.0 * place).normalize();
         angles.push(met.normal.normalize().cross(truth).length().asin());
     }

@@ -48,10 +48,11 @@ fn met(scene: &Scene) -> Vec<(DVec3, [f64; 4])> {
     let [width, _] = plan.view.size;
     let step = scene.settings.sampling.step * scene.field.finest();
     let place = |i: usize| {
-        let direction = plan.view.rays.direction(i as u32 % width, i as u32 / width);
-        let (enter, _) = scene.interval(&plan.view.rays, direction)?;
+        let ray = plan.view.rays.of(i as u32 % width, i as u32 / width);
+        let direction = ray.direction;
+        let (enter, _) = scene.interval(&ray, plan.view.rays.near)?;
         let steps = frame.surfaces[i]?.steps;
-        let point = plan.view.rays.eye + enter * direction + steps * step * direction.normalize();
+        let point = plan.view.rays.origin + enter * direction + steps * step * direction.normalize();
         Some(((point + 0.5) * SIDE as f64 - 0.5, frame.pixels[i]))
     };
     (0..frame.pixels.len()).filter_map(place).collect()

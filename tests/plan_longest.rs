@@ -10,9 +10,9 @@ use glam::DVec3;
 fn brute(rays: &ViewRays, half: DVec3, planes: &[HalfSpace], region: Region) -> f64 {
     let lengths = region.rows().flat_map(|row| {
         region.columns().map(move |c| {
-            let direction = rays.direction(c, row);
-            let interval = cut_interval(rays.eye, direction, half, rays.near, planes);
-            interval.map_or(0.0, |(enter, leave)| (leave - enter) * direction.length())
+            let ray = rays.of(c, row);
+            let interval = cut_interval(&ray, half, rays.near, planes);
+            interval.map_or(0.0, |(enter, leave)| (leave - enter) * ray.direction.length())
         })
     });
     lengths.fold(0.0, f64::max)
@@ -36,7 +36,9 @@ fn is_what_going_through_all_pixels_finds() {
         let eye = DVec3::new(eye(), eye(), eye());
         let half = 0.5 * DVec3::new(1.0, number(), 1e-3 + number());
         let (up, fov_y) = (DVec3::new(0.1, 1.0, 0.3), 1.0 + 168.0 * number());
-        let camera = Camera { eye, target: half * (number() - 0.5), up, fov_y };
+        // A third of them is orthographic.
+        let height = (i % 3 == 2).then(|| 0.01 + 3.0 * number());
+        let camera = Camera { eye, target: half * (number() - 0.5), up, fov_y, height };
         let size = [1 + (60.0 * number()) as u32, 1 + (60.0 * number()) as u32];
         let rays = camera.rays(size).unwrap();
         let region = Region { x: 0, y: 0, width: size[0], height: size[1] };

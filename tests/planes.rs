@@ -2,7 +2,7 @@
 
 use depthleap::frame::{Structures, cpu};
 use depthleap::math::polyhedron::HalfSpace;
-use depthleap::math::ray::{box_interval, cut_interval};
+use depthleap::math::ray::{ViewRay, box_interval, cut_interval};
 use depthleap::method;
 use depthleap::plan::{plan, warnings};
 use depthleap::read;
@@ -47,9 +47,9 @@ fn lengths(scene: &Scene, planes: &[[f64; 4]]) -> Vec<f64> {
     let spaces: Vec<[f64; 4]> = faces.chain(planes.iter().copied()).collect();
     let rays = scene.camera.rays(SIZE).unwrap();
     let length = |i: u32| {
-        let direction = rays.direction(i % SIZE[0], i / SIZE[0]).normalize();
+        let direction = rays.of(i % SIZE[0], i / SIZE[0]).direction.normalize();
         // Where the ray meets each plane; what is kept lies between two of these places, since it is convex.
-        let at = |[x, y, z, d]: [f64; 4], t: f64| DVec3::new(x, y, z).dot(rays.eye + t * direction) + d;
+        let at = |[x, y, z, d]: [f64; 4], t: f64| DVec3::new(x, y, z).dot(rays.origin + t * direction) + d;
         let mut meets: Vec<f64> =
             spaces.iter().map(|plane| at(*plane, 0.0) / (at(*plane, 0.0) - at(*plane, 1.0))).collect();
         meets.retain(|t| t.is_finite() && *t > 0.0);
@@ -127,7 +127,8 @@ fn an_interval_is_where_a_ray_is_inside_of_all() {
             let place = eye + depth * direction;
             depth >= 0.01 && place.abs().cmple(half).all() && spaces.iter().all(|space| space.height(place) >= 0.0)
         };
-        match cut_interval(eye, direction, half, 0.01, &spaces) {
+        let ray = ViewRay { origin: eye, direction };
+        match cut_interval(&ray, half, 0.01, &spaces) {
             Some((enter, leave)) => {
                 met += 1;
                 let little = 1e-9 * (1.0 + leave);
@@ -136,7 +137,7 @@ fn an_interval_is_where_a_ray_is_inside_of_all() {
             }
             None => {
                 missed += 1;
-                let Some((enter, leave)) = box_interval(eye, direction, half, 0.01) else { continue };
+                let Some((enter, leave)) = box_interval(&ray, half, 0.01) else { continue };
                 let place = |i: u32| enter + (leave - enter) * f64::from(i) / 200.0;
                 assert!((1..200).all(|i| !inside(place(i))), "{eye} {direction} {spaces:?}");
             }

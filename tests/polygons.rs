@@ -81,9 +81,9 @@ fn rays_meet_a_sphere_where_its_equation_says() {
     let mut met = 0;
     for i in 0..size[0] * size[1] {
         let pixel = [i % size[0], i / size[0]];
-        let direction = rays.direction(pixel[0], pixel[1]);
-        let (a, b) = (direction.length_squared(), direction.dot(rays.eye - centre));
-        let root = b * b - a * ((rays.eye - centre).length_squared() - 0.16);
+        let direction = rays.of(pixel[0], pixel[1]).direction;
+        let (a, b) = (direction.length_squared(), direction.dot(rays.origin - centre));
+        let root = b * b - a * ((rays.origin - centre).length_squared() - 0.16);
         let found = scene.polygons.crossings(&rays, pixel, 0.0).list;
         // Facets lie up to 8e-6 inside of the sphere.
         if root.abs() < 1e-3 {

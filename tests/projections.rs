@@ -61,10 +61,10 @@ fn rays(scene: &Scene) -> Vec<Option<([[f64; 3]; 2], f64)>> {
     let size = scene.settings.image.size;
     let rays = scene.camera.rays(size).unwrap();
     let pixel = |i: u32| {
-        let direction = rays.direction(i % size[0], i / size[0]);
-        let (enter, leave) = box_interval(rays.eye, direction, 0.5 * scene.field.extent(), rays.near)?;
-        let place = |t: f64| ((rays.eye + t * direction + 0.5) * SIDE as f64).to_array();
-        Some(([place(enter), place(leave)], (leave - enter) * direction.length() * SIDE as f64))
+        let ray = rays.of(i % size[0], i / size[0]);
+        let (enter, leave) = box_interval(&ray, 0.5 * scene.field.extent(), rays.near)?;
+        let place = |t: f64| ((ray.at(t) + 0.5) * SIDE as f64).to_array();
+        Some(([place(enter), place(leave)], (leave - enter) * ray.direction.length() * SIDE as f64))
     };
     (0..size[0] * size[1]).map(pixel).collect()
 }

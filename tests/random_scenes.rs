@@ -129,7 +129,7 @@ fn what_can_be_planned_has_numbers_of_single_precision() {
         assert!(corners.into_iter().all(|c| c.is_finite()), "{settings:?}");
         let region = plan.view.region;
         let frame = Frame::new(&scene, &plan.view.rays, plan.passes, [region.x, region.y]);
-        let numbers: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame.eye));
+        let numbers: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame.origin));
         let others = [frame.base, frame.right, frame.down, frame.extent, frame.inverse_extent, frame.voxel_step];
         let all = numbers.iter().chain(others.as_flattened().as_flattened());
         let single =

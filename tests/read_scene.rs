@@ -81,6 +81,15 @@ fn every_key_is_read() {
 }
 
 #[test]
+fn a_height_makes_the_camera_orthographic() {
+    let scene = read::scene(&settings("[camera]\nheight = 1.2\n[volume]\nbuiltin = \"shells:8\"").unwrap()).unwrap();
+    assert_eq!(scene.camera.height, Some(1.2));
+    assert!(scene.camera.rays([4, 3]).unwrap().parallel());
+    let perspective = read::scene(&settings("[volume]\nbuiltin = \"shells:8\"").unwrap()).unwrap();
+    assert_eq!(perspective.camera.height, None);
+}
+
+#[test]
 fn paths_are_relative_to_the_scene_file() {
     let text = "[volume]\npath = \"data/a.nrrd\"\n[transfer]\nfile = \"/abs/map.json\"";
     let (folder, path) = file("a.toml", text);
@@ -139,6 +148,7 @@ fn values_out_of_range_are_named_with_their_key() {
     refused(|s| s.image.size = [5, 65536], "image.size", "65536");
     refused(|s| s.image.background = [0.0, 2.0, 0.0], "image.background", "2.0");
     refused(|s| s.camera.fov_y = 180.0, "camera", "180");
+    refused(|s| s.camera.height = Some(0.0), "camera.height", "is 0");
     refused(|s| s.transfer.reference = 0.0, "transfer.reference", "is 0");
     refused(|s| s.transfer.preset = Some("ram".into()), "transfer.preset", "did you mean `ramp`?");
     refused(|s| s.volume.range = Some([1.0, 0.0].map(Into::into)), "volume.range", "[1, 0]");

@@ -55,13 +55,13 @@ fn off_snell(step: f64, offset: Offset) -> (f64, usize) {
         // Rays that leave by the sides are still on their way through the plane.
         let Some(ray) = leaves.filter(|ray| ray.point.z < -0.27) else { continue };
         let (rays, size) = (plan.view.rays, plan.view.size);
-        let direction = rays.direction(i as u32 % size[0], i as u32 / size[0]);
-        let (enter, _) = scene.interval(&rays, direction).unwrap();
+        let straight = rays.of(i as u32 % size[0], i as u32 / size[0]);
+        let (enter, _) = scene.interval(&straight, rays.near).unwrap();
         // Nor are those that enter by them at its begin.
-        if (rays.eye + enter * direction).z < 0.27 {
+        if straight.at(enter).z < 0.27 {
             continue;
         }
-        let before = direction.normalize();
+        let before = straight.direction.normalize();
         let angle = |way: DVec3| way.x.hypot(way.y).asin();
         worst = worst.max((angle(ray.direction) - (before.x.hypot(before.y) / INDEX).asin()).abs());
         // The plane of incidence is kept, up to the rounding of the direction that is stored.
@@ -128,8 +128,8 @@ fn luneburg_lens_has_its_focus_on_its_far_side() {
         // At the rim, where the index has a bend of its own, the interpolant has another idea of it.
         .filter(|(i, _)| {
             let [column, row] = [*i as u32 % plan.view.size[0], *i as u32 / plan.view.size[0]];
-            let before = plan.view.rays.direction(column, row).normalize();
-            plan.view.rays.eye.cross(before).length() < 0.95 * radius
+            let before = plan.view.rays.of(column, row).direction.normalize();
+            plan.view.rays.origin.cross(before).length() < 0.95 * radius
         })
         .filter_map(|(_, ray)| *ray)
         .map(|ray| (focus - ray.point).cross(ray.direction).length() / radius)
@@ -209,13 +209,14 @@ fn bent_rays_see_where_their_lines_meet_the_plane() {
         (plan.view.rays, plan.view.rays.base - plan.view.rays.base.project_onto(plan.view.rays.right));
     let forward = (forward - forward.project_onto(rays.down)).normalize();
     let corner = |i: usize| DVec3::new([-0.5, 0.5][i & 1], [-0.5, 0.5][i >> 1 & 1], [-0.5, 0.5][i >> 2]);
-    let depth = (0..8).map(|i| (corner(i) - rays.eye).dot(forward)).fold(0.0, f64::max) + 0.7;
+    let depth = (0..8).map(|i| (corner(i) - rays.origin).dot(forward)).fold(0.0, f64::max) + 0.7;
     let (mut held, mut moved) = (0, 0);
     for (i, leaves) in frame.leaves.iter().enumerate() {
         let Some(ray) = leaves.filter(|_| !frame.undecided[i]) else { continue };
-        let on = ray.point + (depth - (ray.point - rays.eye).dot(forward)) / ray.direction.dot(forward) * ray.direction;
+        let on =
+            ray.point + (depth - (ray.point - rays.origin).dot(forward)) / ray.direction.dot(forward) * ray.direction;
         // The view's own axes have their pixel of length |right| at depth 1.
-        let arm = (on - rays.eye) / depth;
+        let arm = (on - rays.origin) / depth;
         let right = rays.right.normalize();
         let down = rays.down.normalize();
         let place = [

@@ -90,8 +90,8 @@ fn points_that_are_no_transfer_function_are_refused() {
 fn the_default_camera_sees_the_front_face_428_pixels_wide() {
     let rays = Camera::from(&CameraSettings::default()).rays([500, 500]).unwrap();
     let hits = (0..500).filter(|&column| {
-        let direction = rays.direction(column, 250);
-        let at_front = rays.eye + direction * (rays.eye.z - 0.5);
+        let direction = rays.of(column, 250).direction;
+        let at_front = rays.origin + direction * (rays.origin.z - 0.5);
         at_front.x.abs() <= 0.5
     });
     assert_eq!(hits.count(), 428);
@@ -100,8 +100,28 @@ fn the_default_camera_sees_the_front_face_428_pixels_wide() {
 #[test]
 fn row_0_is_on_top_and_column_0_on_the_left() {
     let rays = Camera::from(&CameraSettings::default()).rays([10, 10]).unwrap();
-    let corner = rays.direction(0, 0);
+    let corner = rays.of(0, 0).direction;
     assert!(corner.x < 0.0 && corner.y > 0.0 && (corner.z + 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn orthographic_rays_lie_side_by_side() {
+    let camera = Camera { height: Some(1.5), ..Camera::orbit(0.0, 0.0, 2.0, 45.0) };
+    let rays = camera.rays([40, 30]).unwrap();
+    for (column, row, x, y) in
+        [(0, 0, -0.975, 0.725), (39, 0, 0.975, 0.725), (0, 29, -0.975, -0.725), (20, 15, 0.025, -0.025)]
+    {
+        let ray = rays.of(column, row);
+        assert!((ray.direction - DVec3::NEG_Z).length() < 1e-15);
+        assert!((ray.origin - DVec3::new(x, y, 2.0)).length() < 1e-15, "{ray:?}");
+        // What leads to a place leads back to it.
+        let place = rays.to_picture() * (ray.at(0.7) - rays.origin);
+        let expected = DVec3::new(f64::from(column) + 0.5, f64::from(row) + 0.5, 0.7);
+        assert!((place - expected).length() < 1e-12, "{place}");
+    }
+    for height in [0.0, -1.0, 1e9, f64::NAN] {
+        Camera { height: Some(height), ..camera }.basis().unwrap_err();
+    }
 }
 
 #[test]

@@ -52,7 +52,7 @@ macro_rules! layout {
 
 fn frame() -> Layout {
     layout!(Frame {
-        eye,
+        origin,
         base,
         right,
         down,
@@ -85,7 +85,7 @@ fn slice() -> Layout {
 }
 
 fn bundle() -> Layout {
-    layout!(Bundle { eye, sides, low, high, spread, short_step })
+    layout!(Bundle { from, sides, low, high, spread, short_step })
 }
 
 fn axis_piece() -> Layout {

@@ -125,9 +125,10 @@ fn no_last_step_leaves_out_what_is_no_whole_step() {
         let [width, _] = scene.settings.image.size;
         assert!(frame.pixels.iter().any(|pixel| pixel[3] > 0.5));
         for (i, pixel) in frame.pixels.iter().enumerate().filter(|(i, _)| !frame.undecided[*i]) {
-            let direction = plan.view.rays.direction(i as u32 % width, i as u32 / width);
+            let ray = plan.view.rays.of(i as u32 % width, i as u32 / width);
+            let direction = ray.direction;
             let length = scene
-                .interval(&plan.view.rays, direction)
+                .interval(&ray, plan.view.rays.near)
                 .map_or(0.0, |(enter, leave)| (leave - enter) * direction.length());
             let steps = (length / (step * scene.field.finest())).floor();
             let expected = 1.0 - (1.0 - OPACITY).powf(steps * step);

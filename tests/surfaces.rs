@@ -58,9 +58,10 @@ fn found(scene: &Scene) -> Vec<Found> {
     let integrator = ExactIntegrator::of(scene);
     let mut all = Vec::new();
     for (i, met) in frame.surfaces.iter().enumerate() {
-        let direction = rays.direction(i as u32 % plan.view.size[0], i as u32 / plan.view.size[0]);
-        let (Some(met), Some((enter, leave))) = (met, scene.interval(&rays, direction)) else { continue };
-        let (entry, unit) = (rays.eye + enter * direction, direction.normalize());
+        let ray = rays.of(i as u32 % plan.view.size[0], i as u32 / plan.view.size[0]);
+        let direction = ray.direction;
+        let (Some(met), Some((enter, leave))) = (met, scene.interval(&ray, rays.near)) else { continue };
+        let (entry, unit) = (rays.origin + enter * direction, direction.normalize());
         let length = (leave - enter) * direction.length();
         let root = integrator.first_within(entry, unit, length, &ranges);
         all.extend(root.map(|root| Found {

@@ -55,7 +55,7 @@ vec3 backdrop_straight(ivec2 pixel) {
 
 // What is met from a point along a vector, both of volume space; black where that never comes to the plane.
 vec3 backdrop_met(vec3 point, vec3 way) {
-    vec3 eye = frame.eye[0].xyz;
+    vec3 origin = frame.origin[0].xyz;
     vec3 base = frame.base[0].xyz;
     vec3 right = frame.right[0].xyz;
     vec3 down = frame.down[0].xyz;
@@ -64,13 +64,17 @@ vec3 backdrop_met(vec3 point, vec3 way) {
     float along = length(down);
     vec3 forward = normalize(cross(right / across, down / along));
     forward = dot(forward, base) < 0.0 ? -forward : forward;
-    float depth = dot(0.5 * frame.extent[0].xyz, abs(forward)) - dot(eye, forward) + BEHIND;
+    float depth = dot(0.5 * frame.extent[0].xyz, abs(forward)) - dot(origin, forward) + BEHIND;
     float rise = dot(way, forward);
     if (rise <= 0.0) {
         return vec3(0.0);
     }
-    vec3 on = point + (depth - dot(point - eye, forward)) / rise * way;
-    vec3 arm = (on - eye) / depth - base;
+    vec3 on = point + (depth - dot(point - origin, forward)) / rise * way;
+#ifdef ORTHOGRAPHIC
+    vec3 arm = on - origin;
+#else
+    vec3 arm = (on - origin) / depth - base;
+#endif
     vec2 place = vec2(dot(arm, right / across) / across, dot(arm, down / along) / along);
     return all(lessThanEqual(abs(place), vec2(FARTHEST))) ? backdrop_color(place) : vec3(0.0);
 }

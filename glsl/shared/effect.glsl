@@ -34,7 +34,7 @@ struct Sample {
     int surface;
     // Column and row of the pixel in the picture, from the upper left corner.
     ivec2 pixel;
-    // Of the frame: the eye, the sides of the volume, and the distance between samples.
+    // Of the frame: the eye (in an orthographic view where the ray comes from), the sides of the volume, and the distance between samples.
     vec3 eye;
     vec3 extent;
     float spacing;
@@ -78,7 +78,12 @@ Sample sample_at(Ray ray, float steps, float value, int surface, vec4 color) {
     here.way = steps * here.spacing;
     here.surface = surface;
     here.pixel = this_pixel() + ivec2(frame.first_column, frame.first_row);
-    here.eye = frame.eye[0].xyz;
+#ifdef ORTHOGRAPHIC
+    vec2 place = vec2(here.pixel) + 0.5;
+    here.eye = frame.origin[0].xyz + place.x * frame.right[0].xyz + place.y * frame.down[0].xyz;
+#else
+    here.eye = frame.origin[0].xyz;
+#endif
     return here;
 }
 

@@ -5,9 +5,10 @@
 // Texture space: [0,1]^3 over the volume.
 
 layout(set = 0, binding = 0, std140) uniform Frame {
-    // Rays of the view: eye + depth * (base + x * right + y * down), x and y in pixels; volume space.
+    // Rays of the view: origin + depth * (base + x * right + y * down), x and y in pixels; volume space. ORTHOGRAPHIC: origin +
+    // x * right + y * down + depth * base.
     // Each number is a double-float: the high part in [0], what rounding took from it in [1].
-    vec4 eye[2];
+    vec4 origin[2];
     vec4 base[2];
     vec4 right[2];
     vec4 down[2];

@@ -2,7 +2,7 @@
 // ray.glsl.
 
 struct Triangle {
-    // Unit normal, and distance of the plane from the eye: high and low parts.
+    // Unit normal, and distance of the plane from where the view's rays come from: high and low parts.
     vec4 plane[2];
     uint material;
 };
@@ -38,14 +38,19 @@ Meeting meet(uint triangle, vec2 pixel) {
     Triangle here = triangles.list[triangle];
     vec2 slope = vec2(0.0);
     vec2 square = vec2(0.0);
+    vec2 away = vec2(here.plane[0].w, here.plane[1].w);
     for (int axis = 0; axis < 3; ++axis) {
         vec2 direction = ray_direction(pixel, axis);
-        slope = df_add(slope, df_multiply(direction, vec2(here.plane[0][axis], here.plane[1][axis])));
+        vec2 normal = vec2(here.plane[0][axis], here.plane[1][axis]);
+        slope = df_add(slope, df_multiply(direction, normal));
+#ifdef ORTHOGRAPHIC
+        away = df_add(away, -df_multiply(ray_shift(pixel, axis), normal));
+#endif
         square = df_add(square, df_multiply(direction, direction));
     }
     Meeting found;
     found.material = materials.list[here.material];
-    found.depth = df_divide(vec2(here.plane[0].w, here.plane[1].w), slope);
+    found.depth = df_divide(away, slope);
     found.stretch = df_sqrt(square).x;
     found.slope = slope.x;
     found.front = slope.x < 0.0;

@@ -1,24 +1,39 @@
 // Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs, of the box at planes `cut_interval` there.
-// Needs frame.glsl and double_float.glsl. PLANES: the interval of a ray is cut at clip planes [Thesis §3.1.2].
+// Needs frame.glsl and double_float.glsl. PLANES: the interval of a ray is cut at clip planes [Thesis §3.1.2]. ORTHOGRAPHIC: rays lie
+// side by side.
 
 // Beyond every volume, in volume units.
 const float FAR_AWAY = 3.0e38;
 
-// One component (0, 1, 2) of the direction through a pixel (`pixel` in pixels, centres at + 0.5), with
-// component 1 along the view direction.
-vec2 ray_direction(vec2 pixel, int axis) {
+// One component (0, 1, 2) of what a place of the picture (`pixel` in pixels, centres at + 0.5) adds to its upper left corner.
+vec2 ray_shift(vec2 pixel, int axis) {
     vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(frame.right[0][axis], frame.right[1][axis]));
     vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(frame.down[0][axis], frame.down[1][axis]));
-    return df_add(vec2(frame.base[0][axis], frame.base[1][axis]), df_add(along_x, along_y));
+    return df_add(along_x, along_y);
 }
 
-vec2 eye_coordinate(int axis) {
-    return vec2(frame.eye[0][axis], frame.eye[1][axis]);
+// One component of the direction through a place of the picture, with component 1 along the view direction.
+vec2 ray_direction(vec2 pixel, int axis) {
+    vec2 base = vec2(frame.base[0][axis], frame.base[1][axis]);
+#ifdef ORTHOGRAPHIC
+    return base;
+#else
+    return df_add(base, ray_shift(pixel, axis));
+#endif
+}
+
+// One component of where the ray through a place of the picture comes from.
+vec2 ray_origin(vec2 pixel, int axis) {
+    vec2 origin = vec2(frame.origin[0][axis], frame.origin[1][axis]);
+#ifdef ORTHOGRAPHIC
+    return df_add(origin, ray_shift(pixel, axis));
+#else
+    return origin;
+#endif
 }
 
 #ifdef PLANES
-// The height of the eye over a clip plane, and what a ray rises by over it in a unit of depth, for base, right and down:
-// double-floats. The plane itself, in volume space: its normal, to where it keeps, and its height over the origin.
+// The height over a clip plane of where the view's rays come from, and what its base, right and down rise by over it: double-floats. The plane itself, in volume space: its normal, to where it keeps, and its height over the origin.
 struct ClipPlane {
     vec4 heights[2];
     vec4 plane;
@@ -46,8 +61,14 @@ void cut_at_planes(inout Interval interval, vec2 pixel) {
         vec4 low = clip_planes.planes[i].heights[1];
         vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(high.z, low.z));
         vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(high.w, low.w));
-        vec2 rise = df_add(vec2(high.y, low.y), df_add(along_x, along_y));
+        vec2 shift = df_add(along_x, along_y);
+        vec2 rise = vec2(high.y, low.y);
         vec2 height = vec2(high.x, low.x);
+#ifdef ORTHOGRAPHIC
+        height = df_add(height, shift);
+#else
+        rise = df_add(rise, shift);
+#endif
         if (rise.x == 0.0) {
             if (height.x < 0.0) {
                 interval.leave = vec2(0.0);
@@ -71,16 +92,16 @@ Interval box_interval(vec2 pixel) {
     Interval interval = Interval(vec2(frame.near, 0.0), vec2(FAR_AWAY, 0.0), -1, -1);
     for (int axis = 0; axis < 3; ++axis) {
         vec2 direction = ray_direction(pixel, axis);
-        vec2 eye = eye_coordinate(axis);
+        vec2 origin = ray_origin(pixel, axis);
         vec2 half_side = 0.5 * vec2(frame.extent[0][axis], frame.extent[1][axis]);
         if (direction.x == 0.0) {
-            if (abs(eye.x) > half_side.x) {
+            if (abs(origin.x) > half_side.x) {
                 interval.leave = vec2(0.0);
             }
             continue;
         }
-        vec2 low = df_divide(df_add(-half_side, -eye), direction);
-        vec2 high = df_divide(df_add(half_side, -eye), direction);
+        vec2 low = df_divide(df_add(-half_side, -origin), direction);
+        vec2 high = df_divide(df_add(half_side, -origin), direction);
         bool forward = direction.x > 0.0;
         vec2 first = forward ? low : high;
         vec2 second = forward ? high : low;
@@ -106,7 +127,7 @@ vec2 texture_coordinate(vec2 pixel, vec2 depth, int axis, int face_axis, bool le
     if (axis == face_axis) {
         return vec2((direction.x > 0.0) == leaving ? 1.0 : 0.0, 0.0);
     }
-    vec2 point = df_add(eye_coordinate(axis), df_multiply(depth, direction));
+    vec2 point = df_add(ray_origin(pixel, axis), df_multiply(depth, direction));
     vec2 inverse_extent = vec2(frame.inverse_extent[0][axis], frame.inverse_extent[1][axis]);
     return df_add(df_multiply(point, inverse_extent), vec2(0.5, 0.0));
 }

@@ -4,13 +4,14 @@
 // cells first, where the search for smaller ones begins. Four boxes, a word, an invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [LARGER]
+//@takes [LARGER], [PARALLEL]
 
 #include "shared/slice.glsl"
 
 // The Rust side is src/shared/bundle.rs. Lengths in voxels of the finest spacing, from the first voxel's centre.
 layout(set = 0, binding = 0, std140) uniform Bundle {
-    vec4 eye;
+    // The eye; PARALLEL: the one direction of all rays.
+    vec4 from;
     // Sides of a cell of the grid.
     vec4 sides;
     // Faces of the volume.
@@ -256,21 +257,29 @@ uint free_from(ivec3 box) {
     Rays rays;
     precise vec3 middle = 0.5 * (begin + end);
     precise vec3 half_side = 0.5 * (end - begin);
-    precise vec3 from_eye = middle - bundle.eye.xyz;
-    precise float away = sqrt(dot_in_order(from_eye, from_eye));
     precise float radius = sqrt(dot_in_order(half_side, half_side));
+    bool cone = bundle.spread > 0.0;
+#ifdef PARALLEL
+    vec3 direction = bundle.from.xyz;
+    vec3 spreads = vec3(bundle.spread);
+    float widening = bundle.spread;
+    const float shortened = 1.0;
+    const float lengthened = 1.0;
+#else
+    precise vec3 from_eye = middle - bundle.from.xyz;
+    precise float away = sqrt(dot_in_order(from_eye, from_eye));
     precise float too_near = scale() == 1 ? radius + 1.0 : AWAY * radius;
     // Seen from within, rays go anywhere.
     if (away <= too_near) {
         return least;
     }
-    bool cone = bundle.spread > 0.0;
     precise vec3 direction = from_eye / away;
     precise float wider = bundle.spread + (scale() == 1 ? WITHIN : WIDER) * (radius / away);
     precise vec3 spreads = cone ? vec3(wider) : half_side / away;
     precise float widening = cone ? wider : radius / away;
     precise float shortened = cone ? 1.0 : (away - radius) / away;
     precise float lengthened = cone ? 1.0 : (away + radius) / away;
+#endif
     precise float short_step = bundle.short_step * float(scale());
     rays = Rays(middle, half_side, direction, spreads);
     precise float free = float(known) / lengthened;

@@ -24,6 +24,7 @@ pub mod layers;
 pub mod light_paths;
 pub mod lights;
 mod opacity_correction;
+mod orthographic;
 mod planes;
 mod preintegration;
 mod reasons;
@@ -43,6 +44,7 @@ pub use early_ends::{EARLY_ENDS, may_end};
 pub use effect::EFFECT;
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
+pub use orthographic::ORTHOGRAPHIC;
 pub use refraction::REFRACTION;
 pub use start::START;
 pub use surface::{ISO_SURFACE, SURFACES_IN_VOLUME, TRANSPARENT_SURFACES};
@@ -68,7 +70,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::TRANSFER_FUNCTION;
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 41] = [
+pub const FEATURES: [&Feature; 42] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -94,6 +96,7 @@ pub const FEATURES: [&Feature; 41] = [
     &LAYER_BEHIND,
     &OPAQUE_SURFACE,
     &APART,
+    &ORTHOGRAPHIC,
     &CLIP_PLANES,
     &CLIP_VOLUME,
     &ISO_SURFACE,

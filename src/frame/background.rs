@@ -12,8 +12,8 @@ use crate::error::Result;
 use crate::method;
 use crate::scene::Scene;
 use crate::scene::settings::Distance;
-use crate::structure::Lookup;
 use crate::structure::grid::Grid;
+use crate::structure::{Lookup, RaysFrom};
 use crate::vulkan::Device;
 
 /// Frames that a build with one queue is spread over, and the guess for one beside them until the first has ended.
@@ -71,8 +71,8 @@ impl Background {
         }
         let Some(wanted) = lookup_of(scene)? else { return Ok(None) };
         let grid = Grid::new(&scene.field, wanted.cell);
-        let serves =
-            |lookup: &Lookup| lookup.view.is_some_and(|view| view.serves(&grid, &scene.field, scene.camera.eye));
+        let from = RaysFrom::of(&scene.camera);
+        let serves = |lookup: &Lookup| lookup.view.is_some_and(|view| view.serves(&grid, &scene.field, from));
         // What is for a frame that has passed is kept only while it serves.
         self.ready.retain(|(made_for, lookup)| *made_for > frame || serves(lookup));
         let kept: Vec<Lookup> = self.ready.iter().map(|(_, lookup)| *lookup).collect();

@@ -34,8 +34,8 @@ const BOX: Geometry = Geometry {
 /// each axis; twice that leaves room for its own arithmetic.
 fn hits(scene: &Scene, rays: &ViewRays, Sample { pixel: [column, row], raster }: Sample) -> Hits {
     let hit = |x: f64, y: f64| {
-        let direction = rays.direction(column, row) + x * rays.right + y * rays.down;
-        scene.interval(rays, direction).is_some()
+        let ray = rays.through(f64::from(column) + 0.5 + x, f64::from(row) + 0.5 + y);
+        scene.interval(&ray, rays.near).is_some()
     };
     let centre = hit(0.0, 0.0);
     let around = [(raster, raster), (-raster, raster), (raster, -raster), (-raster, -raster)];

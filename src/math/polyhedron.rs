@@ -9,7 +9,7 @@ use glam::DVec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     pub corners: Vec<usize>,
-    /// The side of the eye: true where a ray through the face enters the box.
+    /// Whether rays through the face enter the box by it.
     pub front: bool,
 }
 
@@ -36,8 +36,8 @@ impl HalfSpace {
 }
 
 impl Polyhedron {
-    /// The box [-half, half], its faces sorted into front and back as seen from `eye`.
-    pub fn cuboid(half: DVec3, eye: DVec3) -> Self {
+    /// The box [-half, half]; `enters` says whether rays enter a half space by its plane.
+    pub fn cuboid(half: DVec3, enters: impl Fn(&HalfSpace) -> bool) -> Self {
         let corners = (0..8)
             .map(|i| half * DVec3::from_array(std::array::from_fn(|a| if i >> a & 1 == 1 { 1.0 } else { -1.0 })))
             .collect();
@@ -49,7 +49,7 @@ impl Polyhedron {
                 let sign = if side == 1 { 1.0 } else { -1.0 };
                 faces.push(Face {
                     corners: vec![first, first | u, first | u | v, first | v],
-                    front: sign * eye[axis] > half[axis],
+                    front: enters(&HalfSpace { normal: -sign * DVec3::AXES[axis], distance: -half[axis] }),
                 });
             }
         }

@@ -2,6 +2,7 @@
 
 use super::picture::Picture;
 use crate::feature::EARLY_ENDS;
+use crate::math::ray::ViewRay;
 use crate::plan::{self, Plan};
 use crate::projection::{self, Ends};
 use crate::resource;
@@ -51,7 +52,7 @@ fn layers_left(scene: &Scene, plan: &Plan) -> Option<String> {
 /// That clip geometry which cuts in front of its first surface does not cover the volume.
 fn uncovered(scene: &Scene, plan: &Plan) -> Option<String> {
     let rays = &plan.view.rays;
-    let meets = |direction| scene.interval(rays, direction).is_some();
+    let meets = |ray: &ViewRay| scene.interval(ray, rays.near).is_some();
     let pixels = scene.polygons.uncovered(rays, plan.view.size, meets);
     (pixels > 0).then(|| {
         format!(

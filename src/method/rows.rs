@@ -138,7 +138,7 @@ fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
     if context.has(&CLIP_BEGIN) && context.scene.polygons.cuts_in_front() {
         steps.push(peel::clip(context));
     } else if context.has(&CLIP_BEGIN) {
-        steps.push(clip_winding::clip_winding());
+        steps.push(clip_winding::clip_winding(context));
         steps.push(clip_begin::clip_begin(context));
     }
     steps.extend(context.opaque.then(|| peel::opaque(context)));

@@ -48,8 +48,8 @@ static TRIANGLES_INFO: ResourceInfo = of_frame(
     "unit normal of a triangle and distance of its plane from the eye, volume space, as double-floats; its material",
     ResourceKind::Storage(|facts, _| (size_of::<shared::Triangle>() * facts.scene.polygons.triangles.len()) as u64),
     |facts| {
-        let (polygons, eye) = (&facts.scene.polygons, facts.view.rays.eye);
-        let triangles: Vec<_> = polygons.triangles.iter().map(|one| shared::Triangle::new(one, eye)).collect();
+        let (polygons, origin) = (&facts.scene.polygons, facts.view.rays.origin);
+        let triangles: Vec<_> = polygons.triangles.iter().map(|one| shared::Triangle::new(one, origin)).collect();
         bytemuck::cast_slice(&triangles).to_vec().into()
     },
 );
@@ -72,7 +72,11 @@ static PLACEMENT_INFO: ResourceInfo = of_frame(
     "placement",
     "where a point of volume space lies in the picture, `Placement` of polygons.vert",
     ResourceKind::Uniform(|_, _| size_of::<shared::Placement>() as u64),
-    |facts| Cow::Owned(bytemuck::bytes_of(&shared::Placement::new(&facts.view.rays, facts.view.size)).to_vec()),
+    |facts| {
+        let (view, polygons) = (facts.view, &facts.scene.polygons);
+        let far = polygons.bounds().map_or(1.0, |bounds| view.rays.deepest(bounds.least, bounds.greatest));
+        Cow::Owned(bytemuck::bytes_of(&shared::Placement::new(&view.rays, view.size, far)).to_vec())
+    },
 );
 
 /// An image that frames draw into.

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::environment::Picture;
-use crate::math::ray::ViewRays;
+use crate::math::ray::{Lens, ViewRays};
 
 /// What is on the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,13 +37,16 @@ impl Backdrop {
     pub fn met(&self, rays: &ViewRays, half: DVec3, point: DVec3, way: DVec3) -> Option<[f64; 2]> {
         let across = rays.right.cross(rays.down).normalize();
         let forward = across * across.dot(rays.base).signum();
-        let depth = half.dot(forward.abs()) - rays.eye.dot(forward) + self.distance;
+        let depth = half.dot(forward.abs()) - rays.origin.dot(forward) + self.distance;
         let rise = way.dot(forward);
         if rise <= 0.0 {
             return None;
         }
-        let on = point + (depth - (point - rays.eye).dot(forward)) / rise * way;
-        let arm = (on - rays.eye) / depth - rays.base;
+        let on = point + (depth - (point - rays.origin).dot(forward)) / rise * way;
+        let arm = match rays.lens {
+            Lens::Perspective => (on - rays.origin) / depth - rays.base,
+            Lens::Orthographic => on - rays.origin,
+        };
         let place =
             [arm.dot(rays.right) / rays.right.length_squared(), arm.dot(rays.down) / rays.down.length_squared()];
         place.iter().all(|at| at.abs() <= FARTHEST).then_some(place)

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Scene;
+use super::{Camera, Scene};
 
 /// A light. Colours are linear, and hold how much of it takes part.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,10 +45,14 @@ impl LitPoint {
 }
 
 impl Light {
-    /// A white light at the eye.
-    pub fn headlight(eye: DVec3) -> Self {
+    /// A white light where the camera's rays come from: at the eye, or along the view.
+    pub fn headlight(camera: &Camera) -> Self {
+        let Camera { eye, target, .. } = *camera;
         Self {
-            place: LightPlace::Position(eye),
+            place: match camera.height {
+                None => LightPlace::Position(eye),
+                Some(_) => LightPlace::Direction((eye - target).normalize_or_zero()),
+            },
             ambient: [HEADLIGHT_AMBIENT; 3],
             diffuse: [1.0 - HEADLIGHT_AMBIENT; 3],
             specular: [0.0; 3],
@@ -143,7 +147,7 @@ impl Scene {
     /// The lights that shine in the scene, in the volume's axes: on surfaces a headlight where none are given.
     pub fn shining(&self) -> Vec<Light> {
         if self.lights.is_empty() && self.surface.is_some() {
-            vec![Light::headlight(self.camera.eye)]
+            vec![Light::headlight(&self.camera)]
         } else {
             self.lights.clone()
         }

@@ -1,15 +1,15 @@
 //! The longest ray of a view, by branch and bound: a picture of 65535 x 65535 pixels costs some ten thousand rays, not
 //! four thousand million.
 //!
-//! For all pixels of a tile the direction's components lie between those of its corners, and so do the depths at which rays meet
-//! each face of the box and each clip plane; what lies between two of these is bounded as a whole, so that thin slabs are bounded
+//! For all pixels of a tile the components of where rays come from and go to lie between those of its corners, and so do the depths at
+//! which rays meet each face of the box and each clip plane; what lies between two of these is bounded as a whole, so that thin slabs are bounded
 //! well. A tile whose bound is no longer than a ray already found is left out; the others are cut in four.
 
 use glam::DVec3;
 
 use super::region::Region;
 use crate::math::polyhedron::HalfSpace;
-use crate::math::ray::{ViewRays, cut_interval};
+use crate::math::ray::{ViewRay, ViewRays, cut_interval};
 
 /// Tiles of at most so many pixels are gone through one by one.
 const FEW: u64 = 16;
@@ -55,9 +55,9 @@ fn quarters(tile: Region) -> [Region; 4] {
 
 impl Solid<'_> {
     fn length(&self, column: u32, row: u32) -> f64 {
-        let direction = self.rays.direction(column, row);
-        cut_interval(self.rays.eye, direction, self.half, self.rays.near, self.planes)
-            .map_or(0.0, |(enter, leave)| (leave - enter) * direction.length())
+        let ray = self.rays.of(column, row);
+        cut_interval(&ray, self.half, self.rays.near, self.planes)
+            .map_or(0.0, |(enter, leave)| (leave - enter) * ray.direction.length())
     }
 
     /// No ray through a pixel of the tile is longer than this.
@@ -67,14 +67,14 @@ impl Solid<'_> {
         }
         let (right, bottom) = (tile.x + tile.width - 1, tile.y + tile.height - 1);
         let corners = [(tile.x, tile.y), (right, tile.y), (tile.x, bottom), (right, bottom)];
-        let directions = corners.map(|(column, row)| self.rays.direction(column, row));
+        let rays = corners.map(|(column, row)| self.rays.of(column, row));
         // The length of a vector is convex, so it is greatest at a corner.
-        let steepest = directions.iter().map(|d| d.length()).fold(0.0, f64::max);
+        let steepest = rays.iter().map(|ray| ray.direction.length()).fold(0.0, f64::max);
         let slack = ROUNDING * steepest;
         let (mut entering, mut leaving) = (Vec::new(), Vec::new());
         for space in faces(self.half).iter().chain(self.planes) {
-            let rises = spread(directions.map(|d| space.normal.dot(d)), slack * space.normal.length());
-            let side = Side { space: *space, height: space.height(self.rays.eye), rises };
+            let rises = spread(rays.map(|ray| space.normal.dot(ray.direction)), slack * space.normal.length());
+            let side = Side { space: *space, heights: spread(rays.map(|ray| space.height(ray.origin)), 0.0), rises };
             match rises {
                 [low, _] if low > 0.0 => entering.push(side),
                 [_, high] if high < 0.0 => leaving.push(side),
@@ -85,7 +85,7 @@ impl Solid<'_> {
         let enter = entering.iter().map(|side| side.depths()[0]).fold(self.rays.near, f64::max);
         let leave = leaving.iter().map(|side| side.depths()[1]).fold(f64::INFINITY, f64::min);
         let slack = ROUNDING * (enter.abs() + leave.abs());
-        let pairs = entering.iter().flat_map(|front| leaving.iter().map(move |back| front.depth_to(back, &directions)));
+        let pairs = entering.iter().flat_map(|front| leaving.iter().map(move |back| front.depth_to(back, &rays)));
         pairs.fold((leave - enter) + slack, f64::min).max(0.0) * steepest * (1.0 + ROUNDING)
     }
 }
@@ -101,8 +101,8 @@ fn faces(half: DVec3) -> [HalfSpace; 6] {
 /// A plane that all rays of a tile enter or leave by.
 struct Side {
     space: HalfSpace,
-    /// Of the eye over it.
-    height: f64,
+    /// The least and the greatest over it of where rays come from.
+    heights: [f64; 2],
     /// The least and the greatest that rays rise by over it in a unit of depth.
     rises: [f64; 2],
 }
@@ -110,15 +110,21 @@ struct Side {
 impl Side {
     /// The least and the greatest depth at which rays meet it.
     fn depths(&self) -> [f64; 2] {
-        spread(self.rises.map(|rise| -self.height / rise), 0.0)
+        let [low, high] = self.heights;
+        spread(self.rises.into_iter().flat_map(|rise| [-low / rise, -high / rise]), 0.0)
     }
 
     /// The most depth that any ray has between this plane, by which it enters, and the one by which it leaves: a linear function of
-    /// the direction, so that it is greatest at a corner, by the product of both rises.
-    fn depth_to(&self, back: &Self, directions: &[DVec3; 4]) -> f64 {
-        let numerator = |d: &DVec3| back.height * self.space.normal.dot(*d) - self.height * back.space.normal.dot(*d);
-        let size = |d: &DVec3| (back.height.abs() + self.height.abs()) * d.length();
-        let most = directions.iter().map(|d| numerator(d) + ROUNDING * size(d)).fold(f64::NEG_INFINITY, f64::max);
+    /// the place in the picture, so that it is greatest at a corner, by the product of both rises. (Either the heights or the rises are
+    /// the same for all rays.)
+    fn depth_to(&self, back: &Self, rays: &[ViewRay; 4]) -> f64 {
+        let numerator = |ray: &ViewRay| {
+            let [front_height, back_height] = [self, back].map(|side| side.space.height(ray.origin));
+            let product = |height: f64, side: &Self| height * side.space.normal.dot(ray.direction);
+            let size = (back_height.abs() + front_height.abs()) * ray.direction.length();
+            product(back_height, self) - product(front_height, back) + ROUNDING * size
+        };
+        let most = rays.iter().map(numerator).fold(f64::NEG_INFINITY, f64::max);
         most.max(0.0) / (self.rises[0] * -back.rises[1])
     }
 }

@@ -84,7 +84,7 @@ impl Scene {
         let settings = &mut self.settings.camera;
         (settings.eye, settings.target, settings.up) =
             (camera.eye.to_array(), camera.target.to_array(), camera.up.to_array());
-        settings.fov_y = camera.fov_y;
+        (settings.fov_y, settings.height) = (camera.fov_y, camera.height);
         self.camera = camera.in_axes_of(self.field.volume.turn);
         self
     }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Scene;
 use crate::math::polyhedron::HalfSpace;
-use crate::math::ray::{ViewRays, cut_interval};
+use crate::math::ray::{ViewRay, cut_interval};
 
 /// Clip planes at the most, as many as graphics libraries promise.
 pub const MOST_PLANES: usize = 6;
@@ -56,9 +56,8 @@ impl Scene {
         faces.chain(planes).fold(reach, f64::min)
     }
 
-    /// The depths between which `rays.eye + depth * direction` lies inside the volume's box and all clip planes, and beyond the
-    /// near plane.
-    pub fn interval(&self, rays: &ViewRays, direction: DVec3) -> Option<(f64, f64)> {
-        cut_interval(rays.eye, direction, 0.5 * self.field.extent(), rays.near, self.clip_planes())
+    /// The depths between which a ray lies inside the volume's box and all clip planes, and beyond `near`.
+    pub fn interval(&self, ray: &ViewRay, near: f64) -> Option<(f64, f64)> {
+        cut_interval(ray, 0.5 * self.field.extent(), near, self.clip_planes())
     }
 }

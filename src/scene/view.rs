@@ -1,13 +1,13 @@
 //! A scene as its camera sees it: the box, cut by clip planes, as triangles, the pixels it covers, the longest ray.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Scene;
 use super::longest::longest_ray;
 use super::region::Region;
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
-use crate::math::ray::ViewRays;
+use crate::math::ray::{Lens, ViewRays};
 
 /// A scene as seen by its camera.
 #[derive(Clone, Debug)]
@@ -35,27 +35,40 @@ impl View {
         let rays = scene.camera.rays(size)?;
         let basis = scene.camera.basis()?;
         let half = 0.5 * scene.field.extent();
-        let half_height = (0.5 * scene.camera.fov_y.to_radians()).tan();
+        let eye = scene.camera.eye;
+        let half_height = scene.camera.half_height();
         let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
 
-        let through_eye = |normal: DVec3| HalfSpace { normal, distance: normal.dot(rays.eye) };
-        let near = HalfSpace { normal: basis.forward, distance: basis.forward.dot(rays.eye) + rays.near };
-        // Rays enter by a clip plane where the eye is on the side that is cut off.
-        let cut = |solid: Polyhedron, plane: &HalfSpace| solid.clipped(*plane, Some(plane.height(rays.eye) < 0.0));
+        let near = HalfSpace { normal: basis.forward, distance: basis.forward.dot(eye) + rays.near };
+        // Rays enter by a plane where they come from the side that is cut off.
+        let enters = |plane: &HalfSpace| match rays.lens {
+            Lens::Perspective => plane.height(eye) < 0.0,
+            Lens::Orthographic => plane.normal.dot(basis.forward) > 0.0,
+        };
+        let cut = |solid: Polyhedron, plane: &HalfSpace| solid.clipped(*plane, Some(enters(plane)));
+        // What lies no farther to a side than this, in perspective at depth 1.
+        let within = |side: DVec3, reach: f64| match rays.lens {
+            Lens::Perspective => {
+                let normal = GUARD * reach * basis.forward - side;
+                HalfSpace { normal, distance: normal.dot(eye) }
+            }
+            Lens::Orthographic => HalfSpace { normal: -side, distance: -side.dot(eye) - GUARD * reach },
+        };
         let solid = scene
             .clip_planes()
             .iter()
-            .fold(Polyhedron::cuboid(half, rays.eye), cut)
+            .fold(Polyhedron::cuboid(half, enters), cut)
             .clipped(near, Some(true))
-            .clipped(through_eye(GUARD * half_width * basis.forward - basis.right), None)
-            .clipped(through_eye(GUARD * half_width * basis.forward + basis.right), None)
-            .clipped(through_eye(GUARD * half_height * basis.forward - basis.up), None)
-            .clipped(through_eye(GUARD * half_height * basis.forward + basis.up), None);
+            .clipped(within(basis.right, half_width), None)
+            .clipped(within(-basis.right, half_width), None)
+            .clipped(within(basis.up, half_height), None)
+            .clipped(within(-basis.up, half_height), None);
         let project = |front: bool| -> Vec<[f32; 3]> {
             let clip = |p: DVec3| {
-                let arm = p - rays.eye;
+                let arm = p - eye;
                 let (x, y) = (arm.dot(basis.right) / half_width, -arm.dot(basis.up) / half_height);
-                [x, y, arm.dot(basis.forward)].map(|c| c as f32)
+                let w = if rays.parallel() { 1.0 } else { arm.dot(basis.forward) };
+                [x, y, w].map(|c| c as f32)
             };
             solid.triangles(front).into_iter().map(clip).collect()
         };
@@ -92,18 +105,21 @@ fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> R
         ));
     }
     let has = |v: DVec3| v.to_array().into_iter().all(|c| (c as f32).is_finite());
-    let sound = [rays.eye, rays.base, rays.right, rays.down].into_iter().all(has);
+    let sound = [rays.origin, rays.base, rays.right, rays.down].into_iter().all(has);
     if sound && corners.into_iter().flatten().flatten().all(|c| c.is_finite()) {
         return Ok(());
     }
     let camera = &scene.settings.camera;
+    let (seen, remedy) = match camera.height {
+        None => {
+            (format!("a field of view of {} degrees", camera.fov_y), "a field of view farther from 0 and 180 degrees")
+        }
+        Some(height) => (format!("a picture {height} high"), "a higher picture (--ortho-height)"),
+    };
     Err(Error::usage(
         "camera (--eye, --target, --fov)",
-        format!(
-            "eye {:?} with a field of view of {} degrees puts corners of the volume beyond single precision",
-            camera.eye, camera.fov_y
-        ),
-        "move the eye nearer to the volume, or choose a field of view farther from 0 and 180 degrees",
+        format!("eye {:?} with {seen} puts corners of the volume beyond single precision", camera.eye),
+        format!("move the eye nearer to the volume, or choose {remedy}"),
     ))
 }
 
@@ -112,18 +128,19 @@ fn covered_by_polygons(scene: &Scene, rays: &ViewRays, size: [u32; 2]) -> Region
     let Some(bounds) = scene.polygons.bounds() else { return Region::default() };
     let corner = |i: usize| {
         let pick = |axis: usize| if i >> axis & 1 == 0 { bounds.least[axis] } else { bounds.greatest[axis] };
-        DVec3::new(pick(0), pick(1), pick(2)) - rays.eye
+        DVec3::new(pick(0), pick(1), pick(2)) - rays.origin
     };
     let corners: [DVec3; 8] = std::array::from_fn(corner);
-    let pixels = DMat3::from_cols(rays.right, rays.down, rays.base).inverse();
+    let pixels = rays.to_picture();
     let placed = corners.map(|arm| pixels * arm);
-    if placed.iter().any(|p| p.z < rays.near) {
+    if !rays.parallel() && placed.iter().any(|p| p.z < rays.near) {
         // Some of it is beside the eye or behind it, and may show anywhere.
         return Region { x: 0, y: 0, width: size[0], height: size[1] };
     }
     let clip = |p: DVec3| {
-        let at = |axis: usize| 2.0 * p[axis] / f64::from(size[axis]) - p.z;
-        [at(0), at(1), p.z].map(|c| c as f32)
+        let w = if rays.parallel() { 1.0 } else { p.z };
+        let at = |axis: usize| 2.0 * p[axis] / f64::from(size[axis]) - w;
+        [at(0), at(1), w].map(|c| c as f32)
     };
     covered(&placed.map(clip), size)
 }

@@ -8,7 +8,7 @@ use crate::structure::bundle::Bundles;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Bundle {
-    pub eye: [f32; 4],
+    pub from: [f32; 4],
     pub sides: [f32; 4],
     pub low: [f32; 4],
     pub high: [f32; 4],
@@ -20,7 +20,7 @@ impl From<&Bundles> for Bundle {
     fn from(of: &Bundles) -> Self {
         let four = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         Self {
-            eye: four(of.eye),
+            from: four(of.from),
             sides: four(of.sides),
             low: four(of.low),
             high: four(of.high),

@@ -43,7 +43,7 @@ fn double_floats(value: glam::DVec3) -> [[f32; 4]; 2] {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Frame {
-    pub eye: [[f32; 4]; 2],
+    pub origin: [[f32; 4]; 2],
     pub base: [[f32; 4]; 2],
     pub right: [[f32; 4]; 2],
     pub down: [[f32; 4]; 2],
@@ -75,7 +75,7 @@ impl Frame {
         let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
         let levels = projection::of(&scene.settings).levels(scene, map);
         Self {
-            eye: double_floats(rays.eye),
+            origin: double_floats(rays.origin),
             base: double_floats(rays.base),
             right: double_floats(rays.right),
             down: double_floats(rays.down),

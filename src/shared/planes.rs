@@ -14,8 +14,8 @@ const FARTHEST: f64 = 1e30;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ClipPlane {
-    /// The height of the eye over the plane, and what base, right and down of the view's rays rise by over it: high parts, low
-    /// parts.
+    /// The height over the plane of where the rays of the view come from, and what their base, right and down rise by over it: high
+    /// parts, low parts.
     pub heights: [[f32; 4]; 2],
     /// The plane in volume space: its normal, to where it keeps, and its height over the origin.
     pub plane: [f32; 4],
@@ -24,7 +24,7 @@ pub struct ClipPlane {
 impl ClipPlane {
     pub fn new(plane: &HalfSpace, rays: &ViewRays) -> Self {
         let rise = |way| plane.normal.dot(way);
-        let height = plane.height(rays.eye).clamp(-FARTHEST, FARTHEST);
+        let height = plane.height(rays.origin).clamp(-FARTHEST, FARTHEST);
         let heights = [height, rise(rays.base), rise(rays.right), rise(rays.down)].map(double_float);
         let [x, y, z] = plane.normal.to_array();
         Self {

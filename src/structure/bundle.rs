@@ -12,6 +12,7 @@
 //!
 //! - `optimal`: everything grows with the distance from the eye, spread = h / |m - eye|, widening = |h| / |m - eye|; a
 //!   ray through another point of the box is shorter by (|m - eye| - |h|) / |m - eye| at the most.
+//! - `optimal` of an orthographic view: nothing grows and nothing is shorter, since there is one direction.
 //! - `cone`: a unit vector within an angle t of another is within 2 sin(t/2) of it, and the directions to two points of the
 //!   box differ by less than `WITHIN` |h| / |m - eye|; their sum is spread on every axis, and widening.
 //!
@@ -27,9 +28,9 @@
 
 use rayon::prelude::*;
 
-use super::LookupView;
 use super::grid::{DistanceField, FAR, Grid, byte_of};
 use super::wide::Wide;
+use super::{LookupView, RaysFrom};
 use crate::scene::Field;
 
 /// Room for f32, in voxels: coordinates of up to some thousand voxels, rounded a few times.
@@ -66,7 +67,10 @@ const AWAY: f32 = 3.0;
 /// The bundles of all cells of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bundles {
-    pub eye: [f32; 3],
+    /// The eye, or the one direction of all rays.
+    pub from: [f32; 3],
+    /// Whether all rays have one direction.
+    pub parallel: bool,
     /// Sides of a cell of the grid.
     pub sides: [f32; 3],
     /// Faces of the volume.
@@ -83,8 +87,14 @@ impl Bundles {
         let spacing = grid.sides / grid.cell as f64;
         let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
         let single = |v: glam::DVec3| v.as_vec3().to_array();
+        let (from, parallel) = match view.from {
+            RaysFrom::Eye(eye) => (eye_in_voxels(grid, field, eye), false),
+            // Voxels of the finest spacing are as long on all axes.
+            RaysFrom::Along(direction) => (direction, true),
+        };
         Self {
-            eye: single(eye_in_voxels(grid, field, view.eye)),
+            from: single(from),
+            parallel,
             sides: single(grid.sides),
             low: single(-0.5 * spacing),
             high: single((dims - 0.5) * spacing),
@@ -160,7 +170,7 @@ impl Search<'_> {
 
     /// Voxels that are free along every ray of the box.
     fn free(&self, at: [usize; 3]) -> u8 {
-        let Bundles { eye, low, high, spread, step, .. } = *self.bundles;
+        let Bundles { from, parallel, low, high, spread, step, .. } = *self.bundles;
         let scale = self.scale;
         let known = self.larger.map_or(0, |level| {
             let [x, y, z] = at.map(|i| i / 2);
@@ -173,19 +183,20 @@ impl Search<'_> {
         let (begin, end) = self.faces(at, scale, self.boxes);
         let middle: [f32; 3] = std::array::from_fn(|a| 0.5 * (begin[a] + end[a]));
         let half: [f32; 3] = std::array::from_fn(|a| 0.5 * (end[a] - begin[a]));
-        let way: [f32; 3] = std::array::from_fn(|a| middle[a] - eye[a]);
-        let (away, radius) = (dot(way, way).sqrt(), dot(half, half).sqrt());
+        let way: [f32; 3] = std::array::from_fn(|a| middle[a] - from[a]);
+        let away = if parallel { f32::INFINITY } else { dot(way, way).sqrt() };
+        let radius = dot(half, half).sqrt();
         // Seen from within, rays go anywhere.
         if away <= if scale == 1 { radius + 1.0 } else { AWAY * radius } {
             return least;
         }
-        let direction = way.map(|w| w / away);
+        let direction = if parallel { from } else { way.map(|w| w / away) };
         let cone = spread > 0.0;
         let wider = spread + if scale == 1 { WITHIN } else { WIDER } * (radius / away);
         let spreads = half.map(|h| if cone { wider } else { h / away });
         let widening = if cone { wider } else { radius / away };
-        let shortened = if cone { 1.0 } else { (away - radius) / away };
-        let lengthened = if cone { 1.0 } else { (away + radius) / away };
+        let shortened = if cone || parallel { 1.0 } else { (away - radius) / away };
+        let lengthened = if cone || parallel { 1.0 } else { (away + radius) / away };
         let short = step * scale as f32;
         let rays = Rays { middle, half, direction, spreads };
         let mut free = f32::from(known) / lengthened;
@@ -331,18 +342,28 @@ impl Rays {
 }
 
 impl LookupView {
-    /// Whether distances made for this view hold for every ray of a camera at `eye` (volume space).
+    /// Whether distances made for this view hold for every ray of another one.
     ///
     /// For the rays of the view alone that is its own eye. For a cone: a ray from the moved eye e' through a point p has the
     /// direction p - e', which differs from p - e by |e' - e|; so the angle between them is at most
-    /// asin(|e' - e| / |p - e|), and no point is nearer than the volume's box.
-    pub fn serves(&self, grid: &Grid, field: &Field, eye: glam::DVec3) -> bool {
-        let Some(half_angle) = self.half_angle.filter(|_| self.eye != eye) else { return self.eye == eye };
-        let [made_for, moved] = [self.eye, eye].map(|eye| eye_in_voxels(grid, field, eye));
+    /// asin(|e' - e| / |p - e|), and no point is nearer than the volume's box. The rays of orthographic views have one direction each, and
+    /// those of the other kind are not served.
+    pub fn serves(&self, grid: &Grid, field: &Field, from: RaysFrom) -> bool {
+        let Some(half_angle) = self.half_angle.filter(|_| self.from != from) else { return self.from == from };
+        // The sine of the angle is rounded to f32 in what the structure was made with.
+        let rounding = 1.0 - 16.0 * f64::from(f32::EPSILON);
+        let [made_for, moved] = match [self.from, from] {
+            [RaysFrom::Eye(made_for), RaysFrom::Eye(moved)] => {
+                [made_for, moved].map(|eye| eye_in_voxels(grid, field, eye))
+            }
+            [RaysFrom::Along(a), RaysFrom::Along(b)] => {
+                return a.distance(b) < 2.0 * (0.5 * half_angle).sin() * rounding;
+            }
+            _ => return false,
+        };
         let spacing = grid.sides / grid.cell as f64;
         let dims = glam::DVec3::from_array(field.dims().map(|n| n as f64));
         let nearest = made_for.clamp(-0.5 * spacing, (dims - 0.5) * spacing).distance(made_for);
-        // The sine of the angle is rounded to f32 in what the structure was made with.
-        made_for.distance(moved) < nearest * half_angle.sin() * (1.0 - 16.0 * f64::from(f32::EPSILON))
+        made_for.distance(moved) < nearest * half_angle.sin() * rounding
     }
 }

@@ -15,7 +15,7 @@ use glam::DVec3;
 
 use crate::projection::Shown;
 use crate::scene::settings::{Distance, Filter, ProjectionName};
-use crate::scene::{Field, Scene};
+use crate::scene::{Camera, Field, Scene};
 use bundle::Bundles;
 use cells::Values;
 use grid::{DistanceField, Grid};
@@ -31,16 +31,34 @@ pub struct Lookup {
     pub nearest: bool,
     /// What counts as interesting is a matter of the projection.
     pub projection: ProjectionName,
-    /// Where rays come from (volume space) and how far their directions may be off: for structures made for a view.
+    /// Where rays come from and how far their directions may be off: for structures made for a view.
     pub view: Option<LookupView>,
 }
 
 /// What `optimal` and `cone` were made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookupView {
-    pub eye: DVec3,
-    /// Half-angle of the cone about the direction from the eye to each point, radians; none for the view's own rays only.
+    pub from: RaysFrom,
+    /// Half-angle of the cone about the direction of the ray through each point, radians; none for the view's own rays only.
     pub half_angle: Option<f64>,
+}
+
+/// Where the rays of a view come from, in volume space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RaysFrom {
+    Eye(DVec3),
+    /// From far away, all along this direction of length 1.
+    Along(DVec3),
+}
+
+impl RaysFrom {
+    /// The rays of a camera.
+    pub fn of(camera: &Camera) -> Self {
+        match camera.height {
+            None => Self::Eye(camera.eye),
+            Some(_) => Self::Along((camera.target - camera.eye).normalize_or_zero()),
+        }
+    }
 }
 
 impl Lookup {
@@ -53,7 +71,7 @@ impl Lookup {
     pub fn new(scene: &Scene, distance: Distance) -> Self {
         let method = &scene.settings.method;
         let nearest = scene.settings.sampling.filter == Filter::Nearest;
-        let view = |half_angle| Some(LookupView { eye: scene.camera.eye, half_angle });
+        let view = |half_angle| Some(LookupView { from: RaysFrom::of(&scene.camera), half_angle });
         let view = match distance {
             Distance::Omni | Distance::Directional => None,
             Distance::Optimal => view(None),

@@ -181,13 +181,13 @@ impl<'a> ExactIntegrator<'a> {
             .into_par_iter()
             .flat_map_iter(|row| {
                 (0..size[0]).map(move |column| {
-                    let direction = rays.direction(column, row);
+                    let ray = rays.of(column, row);
                     // Along a view's ray the parameter is depth; lengths are longer by the direction's own.
-                    let stretch = direction.length();
+                    let stretch = ray.direction.length();
                     let between = |enter: f64, leave: f64| {
-                        self.ray(rays.eye + enter * direction, direction / stretch, (leave - enter) * stretch)
+                        self.ray(ray.at(enter), ray.direction / stretch, (leave - enter) * stretch)
                     };
-                    let whole = cut_interval(rays.eye, direction, half, rays.near, self.planes);
+                    let whole = cut_interval(&ray, half, rays.near, self.planes);
                     match self.polygons {
                         None => whole.map_or([0.0; 4], |(enter, leave)| between(enter, leave)),
                         Some((polygons, most)) => {

@@ -4,11 +4,10 @@ use super::{Effect, Pixel, Twin, stored};
 
 /// Fills `direction` and `length`, and sees whether f32 can tell the number of samples.
 pub fn direction(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
-    let direction = twin.rays.direction(pixel.column, pixel.row);
+    let ray = twin.rays.of(pixel.column, pixel.row);
     let extent = twin.scene.field.extent();
-    if let Some((_, leave)) = twin.scene.interval(&twin.rays, direction) {
-        let exit = twin.rays.eye + leave * direction;
-        let way = exit - (pixel.entry - 0.5) * extent;
+    if let Some((_, leave)) = twin.scene.interval(&ray, twin.rays.near) {
+        let way = ray.at(leave) - (pixel.entry - 0.5) * extent;
         // A ray so short that its ends are stored as one point has no direction.
         pixel.direction = stored(way.normalize_or_zero());
         pixel.length = f64::from(way.length() as f32);

@@ -6,11 +6,10 @@ use super::{Effect, Pixel, Twin, stored};
 
 /// Fills `entry`, texture coordinates. A pixel whose ray misses keeps the clear value.
 pub fn entry(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
-    let direction = twin.rays.direction(pixel.column, pixel.row);
+    let ray = twin.rays.of(pixel.column, pixel.row);
     let extent = twin.scene.field.extent();
-    if let Some((enter, _)) = twin.scene.interval(&twin.rays, direction) {
-        let point = twin.rays.eye + enter * direction;
-        pixel.entry = stored(point / extent + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+    if let Some((enter, _)) = twin.scene.interval(&ray, twin.rays.near) {
+        pixel.entry = stored(ray.at(enter) / extent + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
     }
     Effect::Silent
 }

@@ -32,11 +32,11 @@ impl Twin<'_> {
     }
 
     fn surface(&self, pixel: &Pixel, cut: &Cut) -> Surface {
-        let direction = self.rays.direction(pixel.column, pixel.row);
-        let enter = self.scene.interval(&self.rays, direction).map_or(0.0, |(enter, _)| enter);
+        let ray = self.rays.of(pixel.column, pixel.row);
+        let enter = self.scene.interval(&ray, self.rays.near).map_or(0.0, |(enter, _)| enter);
         Surface {
-            steps: (cut.crossing.depth - enter) * direction.length() / self.step_length(),
-            color: self.scene.polygons.lit(direction, &cut.crossing),
+            steps: (cut.crossing.depth - enter) * ray.direction.length() / self.step_length(),
+            color: self.scene.polygons.lit(ray.direction, &cut.crossing),
             kept: cut.kept,
         }
     }

@@ -39,10 +39,10 @@ const BOX_ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
 /// rounding decides.
 pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let (scene, rays) = (twin.scene, &twin.rays);
-    let direction = rays.direction(pixel.column, pixel.row);
+    let ray = rays.of(pixel.column, pixel.row);
     let meets = |grown: f64| {
         let half = 0.5 * (1.0 + grown) * scene.field.extent();
-        cut_interval(rays.eye, direction, half, rays.near, scene.clip_planes()).is_some()
+        cut_interval(&ray, half, rays.near, scene.clip_planes()).is_some()
     };
     pixel.undecided |= meets(BOX_ROUNDING) != meets(-BOX_ROUNDING);
     if meets(0.0) { single_pass(twin, pixel, pass) } else { backdrop::backdrop(twin, pixel, pass) }

@@ -43,6 +43,8 @@ fn rejects_numbers_out_of_their_range() {
         ("--eye 0,1,0", ["camera", "--up"]),
         ("--fov 0", ["camera", "field of view"]),
         ("--fov 180", ["camera", "below 180"]),
+        ("--ortho-height 0", ["--ortho-height", "from 0.000001 to 1000000"]),
+        ("--ortho-height 1 --fov 40", ["--ortho-height", "--fov"]),
         ("--repeats -1", ["--repeats", "-1"]),
         ("--passes 65536 --samples-per-pass 65536", ["4294967296 samples", "fewer passes"]),
         ("--step 0.0001 --samples-per-pass 1", ["main passes", "65536"]),

@@ -28,7 +28,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 71] = [
+const KINDS: [(&str, Change); 75] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -68,6 +68,16 @@ const KINDS: [(&str, Change); 71] = [
         s.method.lookups = s.sampling.samples_per_pass;
     }),
     ("nothing left out", |s| s.method.planner = false),
+    ("an orthographic view", |s| s.camera.height = Some(1.1)),
+    ("an orthographic view along an axis", |s| {
+        (s.camera.eye, s.camera.target, s.camera.height) = ([0.0, 0.0, 1.0], [0.0; 3], Some(1.3));
+    }),
+    ("an orthographic view of boxes and what planes leave", |s| {
+        s.meshes = vec![cuboid(0.6, 0.4), MeshSettings { translate: [0.3, -0.1, 0.2], ..cuboid(0.3, 1.0) }];
+        s.clips = vec![plane([1.0, 0.3, -0.2, 0.1]), clip(0.7, Keep::Inside)];
+        s.camera.height = Some(1.2);
+    }),
+    ("an orthographic view of an iso-surface", |s| (s.surface.iso, s.camera.height) = (Some(90.0), Some(1.1))),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),
     ("an opaque box", |s| s.meshes = vec![cuboid(0.45, 1.0)]),

@@ -18,7 +18,7 @@ fn shown(shows: Shows) -> Vec<(DVec3, DVec3, DVec3)> {
     let mut all = Vec::new();
     for (i, (found, truth)) in frame.pixels.iter().zip(exact).enumerate() {
         assert!([0.0, 1.0].contains(&found[3]), "{found:?}");
-        let direction = plan.view.rays.direction(i as u32 % SIZE[0], i as u32 / SIZE[0]).normalize();
+        let direction = plan.view.rays.of(i as u32 % SIZE[0], i as u32 / SIZE[0]).direction.normalize();
         if found[3] > 0.0 && truth[3] > 0.0 {
             all.push((numbers(*found), numbers(truth), direction));
         }

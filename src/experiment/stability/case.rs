@@ -139,12 +139,12 @@ impl StabilityCase {
 /// The pixel of a medium of one colour, by the length of its ray in what is left of the box.
 pub fn beer(scene: &Scene, [column, row]: [u32; 2], color: [f64; 3], opacity: f64, steps: Option<f64>) -> [f64; 4] {
     let Ok(rays) = scene.camera.rays(scene.settings.image.size) else { return [0.0; 4] };
-    let direction = rays.direction(column, row);
-    let Some((enter, leave)) = scene.interval(&rays, direction) else {
+    let ray = rays.of(column, row);
+    let Some((enter, leave)) = scene.interval(&ray, rays.near) else {
         return [0.0; 4];
     };
     let step = scene.settings.sampling.step;
-    let all = (leave - enter) * direction.length() / (step * scene.field.finest());
+    let all = (leave - enter) * ray.direction.length() / (step * scene.field.finest());
     if all <= scene.settings.sampling.offset.steps() {
         // Too short for a sample in the middle of its first step.
         return [0.0; 4];

@@ -26,8 +26,9 @@ fn widen(grid: &Grid, from: Resource, to: Resource, by: u32) -> Step {
     dispatch(to.name().to_owned(), shader, &[("narrow", from)], &[("wide", to)], slice, 32)
 }
 
-/// For the rays of a view, given by the uniform buffer `bundle`: boxes of several cells first.
-pub fn bundle(grid: &Grid) -> Vec<Step> {
+/// For the rays of a view, given by the uniform buffer `bundle`: boxes of several cells first. `parallel`: whether all of them have one
+/// direction.
+pub fn bundle(grid: &Grid, parallel: bool) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut larger = None;
     for (scale, to) in SCALES.into_iter().zip([resource::BOXES_4, resource::BOXES_2, resource::DISTANCE_BYTES]) {
@@ -39,7 +40,8 @@ pub fn bundle(grid: &Grid) -> Vec<Step> {
             ("wide_4", resource::WIDE_4),
         ];
         reads.extend(larger.map(|larger| ("larger", larger)));
-        let shader = Shader::new("structure/bundle.comp", larger.map(|_| "LARGER"));
+        let defines = [larger.map(|_| "LARGER"), parallel.then_some("PARALLEL")];
+        let shader = Shader::new("structure/bundle.comp", defines.into_iter().flatten());
         let boxes = grid.cells.map(|n| n.div_ceil(scale));
         let slice = Slice { cell: scale as u32, ..slice(grid, words_of_bytes(boxes)) };
         // Some dozen steps along a ray for each of four boxes.

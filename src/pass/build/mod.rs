@@ -27,7 +27,7 @@ use crate::scene::gradients::GradientCoding;
 use crate::scene::settings::Distance;
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
-use crate::structure::{self, Lookup};
+use crate::structure::{self, Lookup, RaysFrom};
 
 /// How a resource is built.
 pub struct Recipe {
@@ -65,7 +65,9 @@ pub static RECIPES: [Recipe; 7] = [
             of_lookup(facts, |grid, lookup| match lookup.distance {
                 Distance::Omni => omni(grid, resource::NEAREST_DISTANCE),
                 Distance::Directional => directional(grid),
-                Distance::Optimal | Distance::Cone => bundle(grid),
+                Distance::Optimal | Distance::Cone => {
+                    bundle(grid, lookup.view.is_some_and(|view| matches!(view.from, RaysFrom::Along(_))))
+                }
             })
         },
         host: Some(|facts| {

@@ -76,8 +76,8 @@ impl ClipMesh {
     /// Whether every ray of a picture of `size` = [width, height] begins outside of the mesh.
     pub fn rays_begin_outside(&self, rays: &ViewRays, size: [u32; 2]) -> bool {
         let [width, height] = size.map(f64::from);
-        let begins = [[0.0, 0.0], [width, 0.0], [0.0, height], [width, height]]
-            .map(|[x, y]| rays.eye + rays.near * (rays.base + x * rays.right + y * rays.down));
+        let begins =
+            [[0.0, 0.0], [width, 0.0], [0.0, height], [width, height]].map(|[x, y]| rays.through(x, y).at(rays.near));
         let near = Bounds::around(begins);
         let apart = near.greatest.cmplt(self.bounds.least) | near.least.cmpgt(self.bounds.greatest);
         self.open_edges == 0 && apart.any()

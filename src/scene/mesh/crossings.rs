@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::polygons::Polygons;
-use crate::math::ray::ViewRays;
+use crate::math::ray::{Lens, ViewRay, ViewRays};
 
 /// Where the ray of a pixel meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,15 +52,18 @@ impl Polygons {
     /// Where the ray through a pixel's centre meets triangles, beyond the near plane. `raster`: steps of the raster that a
     /// rasteriser moves corners to, in pixels.
     pub fn crossings(&self, rays: &ViewRays, pixel: [u32; 2], raster: f64) -> Crossings {
-        let direction = rays.direction(pixel[0], pixel[1]);
-        // A pixel is as wide at that depth; the boxes lie no farther than that.
-        let wide = raster * (rays.right.length() + rays.down.length());
+        let ray = rays.of(pixel[0], pixel[1]);
+        let pixel_width = rays.right.length() + rays.down.length();
         let bounds = self.hierarchy.bounds();
-        let far = (bounds.least - rays.eye).abs().max((bounds.greatest - rays.eye).abs()).length();
+        // In perspective that is its width at depth 1; the boxes lie no farther than that.
+        let far = match rays.lens {
+            Lens::Perspective => (bounds.least - ray.origin).abs().max((bounds.greatest - ray.origin).abs()).length(),
+            Lens::Orthographic => 1.0,
+        };
         let mut found = Crossings::default();
         let mut unsure: Vec<Crossing> = Vec::new();
-        for number in self.hierarchy.met(rays.eye, direction, wide * far) {
-            let Some((crossing, inside)) = self.crossing(rays, direction, number, raster) else { continue };
+        for number in self.hierarchy.met(ray.origin, ray.direction, raster * pixel_width * far) {
+            let Some((crossing, inside)) = self.crossing(rays, &ray, number, raster) else { continue };
             match inside {
                 Inside::Yes => found.list.push(crossing),
                 Inside::Unsure(here) => {
@@ -99,22 +102,28 @@ impl Polygons {
     }
 
     /// Where a ray meets the plane of a triangle, and whether inside of its edges.
-    fn crossing(&self, rays: &ViewRays, direction: DVec3, number: u32, raster: f64) -> Option<(Crossing, Inside)> {
+    fn crossing(&self, rays: &ViewRays, ray: &ViewRay, number: u32, raster: f64) -> Option<(Crossing, Inside)> {
         let triangle = &self.triangles[number as usize];
-        let arms = triangle.corners.map(|c| DVec3::from_array(c.map(f64::from)) - rays.eye);
-        let slope = triangle.normal.dot(direction);
+        let arms = triangle.corners.map(|c| DVec3::from_array(c.map(f64::from)) - ray.origin);
+        let slope = triangle.normal.dot(ray.direction);
         let depth = triangle.normal.dot(arms[0]) / slope;
         let front = slope < 0.0;
         if slope == 0.0 || depth < rays.near || !(front || self.material(number).two_sided) {
             return None;
         }
-        // Each edge's plane through the eye; the ray passes on the inner side of all three, by so many pixels.
+        // Each edge's plane through where the ray comes from; it passes on the inner side of all three, by so many pixels.
         let turn = if front { -1.0 } else { 1.0 };
         let (mut inside, mut unsure) = (true, false);
         for i in 0..3 {
-            let edge = turn * arms[i].cross(arms[(i + 1) % 3]);
-            let side = edge.dot(direction);
-            let reach = raster * (edge.dot(rays.right).abs() + edge.dot(rays.down).abs());
+            let (from, to) = (arms[i], arms[(i + 1) % 3]);
+            let edge = turn * from.cross(to);
+            let side = edge.dot(ray.direction);
+            // What a pixel to the right, or down, adds to the side.
+            let across = match rays.lens {
+                Lens::Perspective => edge,
+                Lens::Orthographic => (to - from).cross(ray.direction),
+            };
+            let reach = raster * (across.dot(rays.right).abs() + across.dot(rays.down).abs());
             if side < -reach {
                 return None;
             }

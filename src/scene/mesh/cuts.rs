@@ -1,12 +1,11 @@
 //! What a ray sees of its crossings: the surfaces that cut it, and which of its parts are drawn.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clip::{MOST_CLIPS, Windings};
 use super::crossings::Crossing;
 use super::polygons::Polygons;
-use crate::math::ray::ViewRays;
+use crate::math::ray::{ViewRay, ViewRays};
 
 /// A surface that cuts a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +108,7 @@ impl Polygons {
     /// The ray of a pixel with up to `most` surfaces and the opaque one that ends it.
     pub fn divided(&self, rays: &ViewRays, pixel: [u32; 2], most: u32) -> DividedRay {
         let cuts = self.cuts(&self.crossings(rays, pixel, 0.0).list);
-        let direction = rays.direction(pixel[0], pixel[1]);
+        let direction = rays.of(pixel[0], pixel[1]).direction;
         let opaque = cuts.opaque.map(|crossing| Cut { crossing, kept: false });
         let shown = cuts.surfaces.iter().take(most as usize).chain(&opaque);
         let surface = |cut: &Cut| ShownSurface {
@@ -132,12 +131,11 @@ impl Polygons {
         (0..size[0] * size[1]).into_par_iter().map(pixel).collect()
     }
 
-    /// Of how many pixels the ray `meets` the volume, by its direction, but no clip geometry, which cuts in front of its first
-    /// surface.
-    pub fn uncovered(&self, rays: &ViewRays, size: [u32; 2], meets: impl Fn(DVec3) -> bool + Sync) -> usize {
+    /// Of how many pixels the ray `meets` the volume but no clip geometry, which cuts in front of its first surface.
+    pub fn uncovered(&self, rays: &ViewRays, size: [u32; 2], meets: impl Fn(&ViewRay) -> bool + Sync) -> usize {
         let pixel = |i: u32| {
             let at = [i % size[0], i / size[0]];
-            meets(rays.direction(at[0], at[1])) && self.cuts(&self.crossings(rays, at, 0.0).list).begin.is_none()
+            meets(&rays.of(at[0], at[1])) && self.cuts(&self.crossings(rays, at, 0.0).list).begin.is_none()
         };
         if self.cuts_in_front() { (0..size[0] * size[1]).into_par_iter().filter(|i| pixel(*i)).count() } else { 0 }
     }

@@ -2,7 +2,7 @@
 
 use super::parse::numbers;
 use super::section::section;
-use crate::scene::camera::{Camera, FIELDS_OF_VIEW};
+use crate::scene::camera::{Camera, FIELDS_OF_VIEW, PICTURE_HEIGHTS};
 use crate::scene::fixed;
 use crate::scene::limits::{Allowed, Limits};
 
@@ -36,6 +36,10 @@ section! {
     #[arg(long = "fov", value_name = "DEGREES", allow_negative_numbers = true)]
     fov_y: f64 = 45.0, within FIELDS_OF_VIEW;
 
+    /// Height of the picture in volume space: an orthographic camera, which has no field of view
+    #[arg(long = "ortho-height", value_name = "LENGTH", allow_negative_numbers = true, conflicts_with = "fov_y")]
+    height?: f64, within PICTURE_HEIGHTS;
+
     options {
         /// Eye on a sphere about 0,0,0 instead of --eye: turned from +z towards +x [default: 0]
         #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "eye")]
@@ -61,6 +65,10 @@ fn help_of_distance() -> String {
 
 impl CameraOptions {
     fn apply_others(&self, settings: &mut CameraSettings) {
+        // A field of view is one of a camera in perspective, whatever the scene file has.
+        if self.fov_y.is_some() {
+            settings.height = None;
+        }
         if self.azimuth.is_some() || self.elevation.is_some() || self.distance.is_some() {
             let [azimuth, elevation] = [self.azimuth, self.elevation].map(Option::unwrap_or_default);
             let orbit = Camera::orbit(azimuth, elevation, self.distance.unwrap_or(DISTANCE), settings.fov_y);
@@ -71,6 +79,6 @@ impl CameraOptions {
 
 impl From<&CameraSettings> for Camera {
     fn from(s: &CameraSettings) -> Self {
-        Self { eye: s.eye.into(), target: s.target.into(), up: s.up.into(), fov_y: s.fov_y }
+        Self { eye: s.eye.into(), target: s.target.into(), up: s.up.into(), fov_y: s.fov_y, height: s.height }
     }
 }

@@ -144,10 +144,9 @@ fn volume_beyond_the_limit(device: &Arc<Device>) {
 fn clip_volume_beyond_the_limit(device: &Arc<Device>) {
     let place = Place::new();
     let side = device.info.max_image_3d + 1;
-    let mut file = format!(
-        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 {side}\nspacings: 1000 1000 1\nencoding: raw\n\n"
-    )
-    .into_bytes();
+    let mut file =
+        format!("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 {side}\nspacings: 1000 1000 1\nencoding: raw\n\n")
+            .into_bytes();
     file.extend((0..side).map(|i| i as u8));
     place.file("cut.nrrd", file);
     place.file("a.toml", "[volume]\nbuiltin = \"shells:12\"\n[[clip]]\nvolume = \"cut.nrrd\"\niso = 100\n");

@@ -44,12 +44,15 @@ fn polygons() -> Polygons {
 fn surfaces_are_where_they_are(device: &Arc<Device>) {
     let polygons = polygons();
     let mut random = Random(53);
-    let evaluator = Evaluator::new(device, "polygon.comp", &[]);
+    let evaluators = ["polygon.comp", "polygon.comp:ORTHOGRAPHIC"].map(|name| Evaluator::new(device, name, &[]));
     let mut worst = Worst::default();
     let mut largest = 0.0f64;
     for view in 0..12 {
         let eye_distance = if view % 3 == 0 { 0.2 } else { random.between(0.8, 4.0) };
-        let camera = Camera::orbit(random.between(-180.0, 180.0), random.between(-80.0, 80.0), eye_distance, 50.0);
+        let (azimuth, elevation) = (random.between(-180.0, 180.0), random.between(-80.0, 80.0));
+        let orthographic = view % 4 == 1;
+        let height = orthographic.then_some(1.6);
+        let camera = Camera { height, ..Camera::orbit(azimuth, elevation, eye_distance, 50.0) };
         let scene = super::scene("shells:8x5x7");
         let rays = camera.rays(SIZE).unwrap();
         // The near plane is a plain f32 on the device.
@@ -58,9 +61,10 @@ fn surfaces_are_where_they_are(device: &Arc<Device>) {
         let mut truths = Vec::new();
         for i in 0..SIZE[0] * SIZE[1] {
             let pixel = [i % SIZE[0], i / SIZE[0]];
-            let direction = rays.direction(pixel[0], pixel[1]);
+            let ray = rays.of(pixel[0], pixel[1]);
+            let direction = ray.direction;
             let half = 0.5 * scene.field.extent();
-            let Some((enter, _)) = box_interval(rays.eye, direction, half, rays.near) else { continue };
+            let Some((enter, _)) = box_interval(&ray, half, rays.near) else { continue };
             for crossing in polygons.crossings(&rays, pixel, 0.0).list {
                 let (x, y) = (pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
                 arguments.push([x, y, crossing.triangle as f32, 0.0]);
@@ -70,7 +74,7 @@ fn surfaces_are_where_they_are(device: &Arc<Device>) {
                 truths.push(((crossing.depth - enter) * direction.length(), slant, crossing));
             }
         }
-        let found = run(device, &evaluator, &polygons, &rays, &scene, &arguments);
+        let found = run(device, &evaluators[usize::from(orthographic)], &polygons, &rays, &scene, &arguments);
         for ((way, slant, crossing), [place, key, shown, front]) in truths.into_iter().zip(found) {
             let what = || format!("triangle {} in view {view}, seen at a cosine of {slant:.1e}", crossing.triangle);
             // The way is as long as it is, to 2^-24 of it; the sides of the box are 1 at the most.
@@ -94,7 +98,7 @@ fn run(
     scene: &depthleap::scene::Scene,
     arguments: &[[f32; 4]],
 ) -> Vec<[f32; 4]> {
-    let triangles: Vec<_> = polygons.triangles.iter().map(|one| shared::Triangle::new(one, rays.eye)).collect();
+    let triangles: Vec<_> = polygons.triangles.iter().map(|one| shared::Triangle::new(one, rays.origin)).collect();
     let materials: Vec<_> = polygons.materials.iter().map(shared::Material::new).collect();
     let buffer = |name: &str, bytes: &[u8]| {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use depthleap::math::polyhedron::HalfSpace;
-use depthleap::math::ray::{ViewRays, box_interval, cut_interval};
+use depthleap::math::ray::{ViewRay, ViewRays, box_interval, cut_interval};
 use depthleap::scene::{Camera, Scene};
 use depthleap::shared::{ClipPlane, Frame};
 use depthleap::vulkan::{Bound, Buffer, BufferInfo, Device, Place, vk};
@@ -27,8 +27,7 @@ type Results = [[f32; 4]; 4];
 
 /// A ray of a view, its results and what is right.
 struct Case {
-    eye: DVec3,
-    direction: DVec3,
+    ray: ViewRay,
     half: DVec3,
     results: Results,
     truth: Option<(f64, f64)>,
@@ -38,8 +37,11 @@ struct Case {
 
 const SIZE: [u32; 2] = [64, 48];
 
+/// The shaders of both kinds of views, and the height of an orthographic picture.
+const LENSES: [(&str, Option<f64>); 2] = [("", None), ("ORTHOGRAPHIC", Some(1.7))];
+
 /// Rays from all around, through the corners' neighbourhood, along an axis and from the inside.
-fn views() -> Vec<(Scene, Camera)> {
+fn views(height: Option<f64>) -> Vec<(Scene, Camera)> {
     let mut random = Random(41);
     let boxes = ["shells:8", "shells:8x5x7", "shells:4x16x9"].map(scene);
     let mut cameras: Vec<Camera> = (0..12)
@@ -54,13 +56,20 @@ fn views() -> Vec<(Scene, Camera)> {
         .collect();
     cameras.push(Camera::orbit(0.0, 0.0, 1.91, 45.0));
     cameras.push(Camera { eye: DVec3::new(0.1, -0.05, 0.02), ..Camera::orbit(30.0, 20.0, 2.0, 70.0) });
-    cameras.into_iter().enumerate().map(|(i, camera)| (boxes[i % 3].clone(), camera)).collect()
+    let all = cameras.into_iter().enumerate();
+    all.map(|(i, camera)| (boxes[i % 3].clone(), Camera { height, ..camera })).collect()
 }
 
 fn cases(device: &Arc<Device>) -> Vec<Case> {
-    let evaluator = Evaluator::new(device, "ray.comp", &[]);
     let mut cases = Vec::new();
-    for (scene, camera) in views() {
+    for (define, height) in LENSES {
+        of_lens(&Evaluator::new(device, &format!("ray.comp:{define}"), &[]), height, &mut cases);
+    }
+    cases
+}
+
+fn of_lens(evaluator: &Evaluator, height: Option<f64>, cases: &mut Vec<Case>) {
+    for (scene, camera) in views(height) {
         let rays = camera.rays(SIZE).unwrap();
         // The near plane is a plain f32 on the device.
         let rays = ViewRays { near: f64::from(rays.near as f32), ..rays };
@@ -71,16 +80,15 @@ fn cases(device: &Arc<Device>) -> Vec<Case> {
         let results = evaluator.run(&Setup { frame, ..Setup::default() }, &arguments);
         let half = 0.5 * scene.field.extent();
         for (&[x, y], results) in pixels.iter().zip(results) {
-            let direction = rays.direction(x, y);
-            let truth = box_interval(rays.eye, direction, half, rays.near);
+            let ray = rays.of(x, y);
+            let truth = box_interval(&ray, half, rays.near);
             // A component of the direction is a sum of numbers up to 1, each good to 2^-44; the smaller it is, the
             // larger is what that error makes of the depth, which is at most 5.
-            let smallest = direction.abs().min_element();
+            let smallest = ray.direction.abs().min_element();
             let allowed = 5.0 * 2_f64.powi(-42) / smallest.max(1e-9);
-            cases.push(Case { eye: rays.eye, direction, half, results, truth, allowed });
+            cases.push(Case { ray, half, results, truth, allowed });
         }
     }
-    cases
 }
 
 fn joined(high: f32, low: f32) -> f64 {
@@ -97,12 +105,12 @@ fn interval_is_its_twin(device: &Arc<Device>) {
         match (told, case.truth) {
             (Some((enter, leave)), Some(truth)) => {
                 hits += 1;
-                worst.see(enter, truth.0, case.allowed, || format!("entry of {} {}", case.eye, case.direction));
-                worst.see(leave, truth.1, case.allowed, || format!("exit of {} {}", case.eye, case.direction));
+                worst.see(enter, truth.0, case.allowed, || format!("entry of {:?}", case.ray));
+                worst.see(leave, truth.1, case.allowed, || format!("exit of {:?}", case.ray));
             }
             (None, None) => misses += 1,
             // Through an edge, to the last bit.
-            _ => assert!((enter - leave).abs() <= 2.0 * case.allowed, "{} {}", case.eye, case.direction),
+            _ => assert!((enter - leave).abs() <= 2.0 * case.allowed, "{:?}", case.ray),
         }
     }
     assert!(hits > 5000 && misses > 5000, "{hits} hits, {misses} misses");
@@ -114,17 +122,20 @@ const RAY_IN_PLANE: f64 = 1e-11;
 
 /// One plane to three, some through the box, some through the eye.
 fn planes_cut_as_in_the_twin(device: &Arc<Device>) {
-    let evaluator = Evaluator::new(device, "ray.comp:PLANES", &[]);
+    let [perspective, orthographic] =
+        ["ray.comp:PLANES", "ray.comp:ORTHOGRAPHIC+PLANES"].map(|name| Evaluator::new(device, name, &[]));
     let mut random = Random(43);
     let mut worst = Worst::default();
     let (mut cut, mut misses) = (0, 0);
-    for (i, (scene, camera)) in views().into_iter().enumerate() {
+    let views = LENSES.into_iter().flat_map(|(_, height)| views(height));
+    for (i, (scene, camera)) in views.enumerate() {
+        let evaluator = if camera.height.is_some() { &orthographic } else { &perspective };
         let rays = camera.rays(SIZE).unwrap();
         let rays = ViewRays { near: f64::from(rays.near as f32), ..rays };
         let mut plane = |n: usize| {
             let mut component = || random.between(-1.0, 1.0);
             let normal = DVec3::new(component(), component(), component()).normalize();
-            let distance = if (i + n).is_multiple_of(4) { normal.dot(rays.eye) } else { 0.3 * component() - 0.2 };
+            let distance = if (i + n).is_multiple_of(4) { normal.dot(rays.origin) } else { 0.3 * component() - 0.2 };
             HalfSpace { normal, distance }
         };
         let planes: Vec<HalfSpace> = (0..1 + i % 3).map(&mut plane).collect();
@@ -148,7 +159,8 @@ fn planes_cut_as_in_the_twin(device: &Arc<Device>) {
         let results: Vec<Results> = evaluator.run(&setup, &arguments);
         let half = 0.5 * scene.field.extent();
         for (&[x, y], results) in pixels.iter().zip(results) {
-            let direction = rays.direction(x, y);
+            let ray = rays.of(x, y);
+            let direction = ray.direction;
             let [enter_high, enter_low, leave_high, leave_low] = results[0];
             let (enter, leave) = (joined(enter_high, enter_low), joined(leave_high, leave_low));
             let told = (enter < leave).then_some((enter, leave));
@@ -156,21 +168,17 @@ fn planes_cut_as_in_the_twin(device: &Arc<Device>) {
             let rises = planes.iter().map(|plane| plane.normal.dot(direction).abs()).fold(f64::INFINITY, f64::min);
             let smallest = direction.abs().min_element().min(rises);
             let allowed = 5.0 * 2_f64.powi(-42) / smallest.max(1e-9);
-            match (told, cut_interval(rays.eye, direction, half, rays.near, &planes)) {
+            match (told, cut_interval(&ray, half, rays.near, &planes)) {
                 (Some(told), Some(truth)) => {
-                    cut += u32::from(Some(truth) != box_interval(rays.eye, direction, half, rays.near));
-                    let what = || format!("{planes:?} of {} {direction}", rays.eye);
+                    cut += u32::from(Some(truth) != box_interval(&ray, half, rays.near));
+                    let what = || format!("{planes:?} of {ray:?}");
                     worst.see(told.0, truth.0, allowed, what);
                     worst.see(told.1, truth.1, allowed, what);
                 }
                 (None, None) => misses += 1,
                 // Along an edge of what is left.
                 _ => {
-                    assert!(
-                        (enter - leave).abs() <= 2.0 * allowed || rises <= RAY_IN_PLANE,
-                        "{planes:?} {} {direction}",
-                        rays.eye
-                    )
+                    assert!((enter - leave).abs() <= 2.0 * allowed || rises <= RAY_IN_PLANE, "{planes:?} {ray:?}")
                 }
             }
         }
@@ -186,9 +194,9 @@ fn points_on_faces_are_exact(device: &Arc<Device>) {
             case.results[1..].iter().any(|axis| axis[at + 1] == 0.0 && (axis[at] == 0.0 || axis[at] == 1.0))
         };
         // A ray enters at the near plane where the eye is inside; it always leaves by a face.
-        let inside = case.eye.abs().cmplt(case.half).all();
-        assert!(inside || on_a_face(0), "entry of {} {}: {:?}", case.eye, case.direction, case.results);
-        assert!(on_a_face(2), "exit of {} {}: {:?}", case.eye, case.direction, case.results);
+        let inside = case.ray.origin.abs().cmplt(case.half).all();
+        assert!(inside || on_a_face(0), "entry of {:?}: {:?}", case.ray, case.results);
+        assert!(on_a_face(2), "exit of {:?}: {:?}", case.ray, case.results);
         faces += 1;
     }
     assert!(faces > 5000, "{faces}");
@@ -200,10 +208,10 @@ fn texture_coordinates_are_their_twins(device: &Arc<Device>) {
         let Some((enter, leave)) = case.truth else { continue };
         for axis in 0..3 {
             let [enter_high, enter_low, leave_high, leave_low] = case.results[axis + 1];
-            let at = |depth: f64| (case.eye + depth * case.direction)[axis] / (2.0 * case.half[axis]) + 0.5;
+            let at = |depth: f64| case.ray.at(depth)[axis] / (2.0 * case.half[axis]) + 0.5;
             // The depth's error, in parts of the box's side, and the arithmetic's own.
             let allowed = (case.allowed + 2_f64.powi(-40)) / (2.0 * case.half[axis]);
-            let what = || format!("axis {axis} of {} {}", case.eye, case.direction);
+            let what = || format!("axis {axis} of {:?}", case.ray);
             worst.see(joined(enter_high, enter_low), at(enter), allowed, what);
             worst.see(joined(leave_high, leave_low), at(leave), allowed, what);
         }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use depthleap::math::ray::box_interval;
 use depthleap::method;
 use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
@@ -142,14 +143,13 @@ fn constant_medium_is_beers_law(device: &Arc<Device>) {
         let mut seen = 0;
         for (i, pixel) in picture.iter().enumerate() {
             let (column, row) = (i as u32 % width, i as u32 / width);
-            let direction = rays.direction(column, row);
-            let Some((enter, leave)) = depthleap::math::ray::box_interval(rays.eye, direction, half, rays.near) else {
-                continue;
-            };
+            let ray = rays.of(column, row);
+            let Some((enter, leave)) = box_interval(&ray, half, rays.near) else { continue };
+            let direction = ray.direction;
             let voxels = (leave - enter) * direction.length() / scene.field.finest();
             let alpha = 1.0 - 0.99f64.powf(voxels);
             let unit = direction.normalize();
-            let integral = exact.ray(rays.eye + enter * direction, unit, (leave - enter) * direction.length());
+            let integral = exact.ray(ray.at(enter), unit, (leave - enter) * direction.length());
             // A ray that only touches an edge may be left out by the rasteriser, which works in 1/256 pixel.
             if voxels < 0.1 {
                 continue;

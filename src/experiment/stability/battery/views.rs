@@ -85,6 +85,21 @@ pub fn cases() -> Vec<StabilityCase> {
         view("field of view of 1", &|s| s.camera.fov_y = 1.0),
         view("field of view of 170", &|s| s.camera.fov_y = 170.0),
         view("field of view of 170 from inside", &|s| (s.camera.eye, s.camera.fov_y) = ([0.1, 0.05, 0.02], 170.0)),
+        view("orthographic", &|s| s.camera.height = Some(1.3)),
+        view("orthographic from inside", &|s| {
+            (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
+            s.camera.height = Some(1.3);
+        }),
+        view("orthographic along an axis", &|s| {
+            (s.camera.eye, s.camera.height) = ([0.0, 0.0, 1.4], Some(1.1));
+        }),
+        view("orthographic from 5000 away", &|s| {
+            (s.camera.eye, s.camera.height) = ([3000.0, 2500.0, 3100.0], Some(1.8));
+        })
+        .expect(Expect::Beer { color: super::super::case::COLOR, opacity: 0.03, steps: None }, FAR),
+        view("orthographic, a picture of a thousandth", &|s| {
+            (s.camera.eye, s.camera.height) = ([1.3, 1.1, 0.9], Some(1e-3));
+        }),
         view("one pixel", &|s| s.image.size = [1, 1]),
         view("1x64 pixels", &|s| s.image.size = [1, 64]),
         view("64x1 pixels", &|s| (s.image.size, s.camera.fov_y) = ([64, 1], 1.0)),
