@@ -96,21 +96,27 @@ pub fn least() -> bool {
     some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
 }
 
-/// One in so many that a driver takes of what another takes whole.
+/// Whether another driver takes one half of the methods and views, so that this one, which has every form, takes the other.
+pub fn other_half() -> bool {
+    !some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
+}
+
+/// Drivers of which each takes as much as the others.
 const SHARE: usize = 2;
 
-/// The same of a driver that does least.
-const LEAST_SHARE: usize = 4;
+/// One in so many that a driver takes where others do more of everything.
+const LEAST_SHARE: usize = 6;
 
-/// What this driver takes of `all` views or methods of a scene: all of them or, where another driver draws all forms, every other, and
-/// where other drivers do more of everything every fourth, from the first to the fourth on by `turn`; one at least. Scenes that count
-/// their turns have all of them between them.
+/// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every other one, by `turn` from
+/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every sixth. One at
+/// least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();
-    let every = match () {
-        () if least() => LEAST_SHARE,
-        () if some_forms() => SHARE,
-        () => 1,
+    let (every, turn) = match () {
+        () if least() => (LEAST_SHARE, turn),
+        () if other_half() => (SHARE, turn + 1),
+        () if some_forms() => (SHARE, turn),
+        () => (1, 0),
     };
     let every = every.min(all.len()).max(1);
     all.into_iter().skip(turn % every).step_by(every).collect()
@@ -205,6 +211,9 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
                 eprintln!(
                     "LEFT TO OTHER SCENES: two of three forms of a method, and every other loop, in the matrix ({ALL_FORMS})"
                 );
+            }
+            if other_half() {
+                eprintln!("LEFT TO ANOTHER DRIVER: every other method of a scene and every other side ({DRIVER_ONLY})");
             }
             if some_forms() {
                 eprintln!(

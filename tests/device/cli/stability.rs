@@ -11,7 +11,7 @@ use depthleap::vulkan::Device;
 
 use super::program::Place;
 use crate::frame::scenes::shapes;
-use crate::harness::{Need, Test, all_forms, least, test};
+use crate::harness::{Need, Test, all_forms, least, share, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
@@ -29,8 +29,9 @@ fn read(place: &Place) -> Stability {
 const OF_SKIPPING: [&str; 2] = ["trap", "buffer"];
 
 /// What is run: the cases with a text in their names, by some methods. All cases by the first of those methods that differ in no more
-/// than their distances, or by all where nothing is to be left out; where others do all of it, by one that skips nothing, and cases of
-/// skipping by the one that both draws and decides in its main passes. By that one all cases take three times as long there.
+/// than their distances, or by all where nothing is to be left out; beside another driver by every other one of them, and there by the
+/// rest. Where others do more of everything, by one that skips nothing, and cases of skipping by the one that both draws and decides in
+/// its main passes. By that one all cases take three times as long there.
 fn asked() -> Vec<(&'static str, Vec<MethodName>)> {
     match all_forms() {
         false if least() => {
@@ -38,7 +39,7 @@ fn asked() -> Vec<(&'static str, Vec<MethodName>)> {
             let skipping = OF_SKIPPING.map(|group| (group, fused.clone()));
             iter::once(("", vec![RC_ERT.name()])).chain(skipping).collect()
         }
-        false => vec![("", shapes().into_iter().map(Method::name).chain([CPU.name()]).collect())],
+        false => vec![("", share(shapes().into_iter().map(Method::name).chain([CPU.name()]), 0))],
         true => vec![("", METHODS.map(Method::name).to_vec())],
     }
 }

@@ -10,7 +10,7 @@ use depthleap::scene::{Effect, Scene};
 use depthleap::vulkan::Device;
 
 use super::compare::same_picture;
-use super::scenes::{Stage, VIEWS, by, exactly, scene, seen};
+use super::scenes::{Stage, VIEWS, by, exactly, loops_in_turn, scene, seen};
 use crate::harness::{Test, share, test};
 
 pub fn tests() -> Vec<Test> {
@@ -29,8 +29,9 @@ type Change = fn(&mut Settings);
 
 const SAME: &str = "vec4 effect(Sample here) { return here.color; }";
 
-fn loops() -> impl Iterator<Item = &'static Method> {
-    METHODS.into_iter().filter(|method| method.loops())
+/// The loops whose turn it is: they share all of what effects are called from but the leaps.
+fn loops(turn: usize) -> impl Iterator<Item = &'static Method> {
+    METHODS.into_iter().filter(move |method| loops_in_turn(method, turn))
 }
 
 /// A scene that is seen from a side, on the way to a step that its opacities are corrected for.
@@ -51,7 +52,7 @@ fn with(scene: &Scene, text: &str) -> Scene {
 /// The picture of `found` is that of `rule` by every loop, and shows something.
 fn equal(device: &Arc<Device>, found: &Scene, rule: &Scene, what: &str, turn: usize) {
     let mut stages = [Stage::new(device), Stage::new(device)];
-    for method in share(loops(), turn) {
+    for method in share(loops(turn), turn) {
         let scenes = [found, rule].map(|scene| by(scene, method.name()));
         let [found, rule] = [0, 1].map(|i| stages[i].shoot(&scenes[i], None).picture);
         assert!(rule.iter().any(|pixel| pixel[3] > 0.1), "{what}, {}: nothing shows", method.name);
@@ -121,7 +122,7 @@ fn told(device: &Arc<Device>) {
     equal(device, &with(&scene, normal), &shown(Shows::Normal), "normals", 1);
     let others = "vec4 effect(Sample here) { return vec4(here.value, vec2(here.pixel), 1.0); }";
     let [width, _] = scene.settings.image.size;
-    for method in share(loops(), 2) {
+    for method in loops(2) {
         let shot = Stage::new(device).shoot(&by(&with(&scene, others), method.name()), None);
         let hits: Vec<_> = shot.picture.iter().enumerate().filter(|(_, pixel)| pixel[3] > 0.0).collect();
         assert!(hits.len() > 100, "{}: {} hits", method.name, hits.len());
@@ -140,7 +141,7 @@ fn nothing_new(device: &Arc<Device>) {
     let scene = seen(&of(|_| {}), VIEWS[1]);
     let scene = with(&scene, "vec4 effect(Sample here) { return vec4(here.coordinate, 1.0); }");
     let mut rules = std::collections::BTreeMap::new();
-    for method in loops() {
+    for method in METHODS.into_iter().filter(|method| method.loops()) {
         let mut stage = Stage::new(device);
         let mut shoot = |method: &Method| stage.shoot(&by(&scene, method.name()), None).picture;
         let rule: &Vec<[f32; 4]> = rules.entry(method.unskipped().name).or_insert_with(|| shoot(method.unskipped()));
@@ -152,9 +153,10 @@ fn nothing_new(device: &Arc<Device>) {
 /// Opacity 0 leaves out a sample, and so does one that is no number, whatever its colour is.
 fn taken_out(device: &Arc<Device>) {
     let scene = of(|_| {});
-    for color in ["vec4(9.0, 9.0, 9.0, 0.0)", "vec4(9.0, 9.0, 9.0, -3.0)", "vec4(vec3(1.0 / zero), zero / zero)"] {
+    let colors = ["vec4(9.0, 9.0, 9.0, 0.0)", "vec4(9.0, 9.0, 9.0, -3.0)", "vec4(vec3(1.0 / zero), zero / zero)"];
+    for (turn, color) in colors.into_iter().enumerate() {
         let text = format!("vec4 effect(Sample here) {{ float zero = here.color.a - here.color.a; return {color}; }}");
-        for method in share(loops(), 0) {
+        for method in share(loops(turn), turn) {
             let shot = Stage::new(device).shoot(&by(&with(&scene, &text), method.name()), None);
             assert!(shot.picture.iter().all(|pixel| *pixel == [0.0; 4]), "{}: {color}", method.name);
         }

@@ -16,7 +16,7 @@ use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
 use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, scene, seen};
-use crate::harness::{Need, Test, least, share, some_forms, test};
+use crate::harness::{Need, Test, least, other_half, share, some_forms, test};
 
 type Change = fn(&mut Settings);
 
@@ -178,14 +178,14 @@ fn leaps(stage: &mut Stage, scene: &Scene, rule: &'static Method, change: fn(&mu
     }
 }
 
-/// Whether a view is drawn on this driver: of a large volume one, since `orbit` sees it from further sides; of other real ones all, of
-/// built-in ones every other one where another driver goes through all of them, and where others do more of everything, one of those
-/// which they leave out.
+/// Whether a view is drawn on this driver: of a large volume one, since `orbit` sees it from further sides; of others all or, beside
+/// another driver, every other one and there the rest. Where other drivers do more of everything, one.
 fn drawn_here(scene: &Scene, view: usize, number: usize) -> bool {
-    match some_forms() {
-        _ if large(scene) || least() => view == number % VIEWS.len(),
-        true if scene.settings.volume.builtin.is_some() => !(view + number).is_multiple_of(2),
-        _ => true,
+    let odd = !(view + number).is_multiple_of(2);
+    match () {
+        () if large(scene) || least() => view == number % VIEWS.len(),
+        () if other_half() => !odd,
+        () => odd || !some_forms(),
     }
 }
 
