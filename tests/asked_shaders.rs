@@ -9,7 +9,7 @@ mod module;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use depthleap::glsl::compile::compile_unoptimised;
+use depthleap::glsl::compile::CompiledModule;
 use depthleap::glsl::{self, Shader as Source};
 use depthleap::vulkan::{ShaderModule, vk};
 use module::{compiled, module};
@@ -36,21 +36,16 @@ fn every_constant_of_a_plan_is_one_of_its_shaders_file() {
 }
 
 /// All shaders that may be asked for, each compiled once for all tests, by the compiler itself: it has warnings that a module kept on
-/// disk has not. The optimiser, which takes most of the time, is left out: it
-/// may take constants and bindings away, and adds none. What it makes of them is held by the tests that draw.
+/// disk has not.
 fn fresh() -> &'static [(Source, ShaderModule)] {
     static MODULES: OnceLock<Vec<(Source, ShaderModule)>> = OnceLock::new();
     MODULES.get_or_init(|| {
-        let asked = asked::shaders(asked::plans());
-        let fresh = |shader: Source| {
-            let text = glsl::built_in().text(shader.file).unwrap().with(shader.insert.as_deref());
-            let defines: Vec<&str> = shader.defines.iter().copied().collect();
-            let made = compile_unoptimised(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
+        let fresh = |(shader, made): (Source, CompiledModule)| {
             assert_eq!(made.warnings, "", "{shader}");
             let module = ShaderModule::new(&shader.to_string(), &made.words).unwrap();
             (shader, module)
         };
-        asked.into_par_iter().map(fresh).collect()
+        asked::unoptimised().map(fresh).collect()
     })
 }
 

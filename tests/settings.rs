@@ -60,13 +60,14 @@ const WITHOUT_RANGE: [(&str, &str); 18] = [
 const TRANSFER: [&str; 3] = ["transfer.preset", "transfer.file", "transfer.points"];
 
 /// Values of options that neither their words nor their limits tell.
-const VALUES: [(&str, &str); 10] = [
+const VALUES: [(&str, &str); 11] = [
     ("range", "1%,99%"),
     ("no-data", "-9999,-1"),
     ("dims", "3,2,1"),
     ("spacing", "1,2,3"),
     ("component", "luminance"),
     ("frame", "2"),
+    ("ortho-height", "1.5"),
     ("iso", "120.5"),
     ("iso-width", "8"),
     ("environment", "sky"),
@@ -252,7 +253,7 @@ fn every_number_has_a_range_that_is_held() {
         // Absent by default: a list of numbers, a number, or a whole number.
         let like = default.unwrap_or(match name.as_str() {
             "volume.no_data" => Value::Array(vec![]),
-            "volume.band" | "surface.iso" | "surface.iso_width" => Value::Float(0.0),
+            "camera.height" | "volume.band" | "surface.iso" | "surface.iso_width" => Value::Float(0.0),
             _ => Value::Integer(0),
         });
         let whole = matches!(&like, Value::Integer(_))

@@ -6,12 +6,13 @@ mod random;
 #[path = "glsl/asked.rs"]
 mod asked;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::mem::offset_of;
 use std::sync::LazyLock;
 
 use bytemuck::Zeroable;
-use depthleap::glsl::{self, Shader};
+use depthleap::glsl::Shader;
+use depthleap::glsl::compile::CompiledModule;
 use depthleap::part::Work;
 use depthleap::plan::plan;
 use depthleap::read;
@@ -19,6 +20,7 @@ use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
 use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, pieces, rows};
 use random::Random;
+use rayon::prelude::*;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
 
@@ -198,14 +200,29 @@ impl<'a> Types<'a> {
     }
 }
 
+/// The structs that both sides know.
+const STRUCTS: [&str; 6] = ["Frame", "Step", "Slice", "Bundle", "ClipPlane", "AxisPiece"];
+
+/// A module's name, and those of the structs that it has.
+type Known = (String, Vec<(&'static str, Layout)>);
+
 /// The struct in every module that the program may ask for and that has it.
 fn in_shaders(name: &str) -> Vec<(String, Layout)> {
-    static ASKED: LazyLock<BTreeSet<Shader>> = LazyLock::new(|| asked::shaders(asked::plans()));
-    let read = |shader: &Shader| {
-        let words = load_words(glsl::module(shader).unwrap()).unwrap();
-        Types::of(&words).layout(name).map(|layout| (shader.to_string(), layout))
+    static ASKED: LazyLock<Vec<Known>> = LazyLock::new(|| {
+        let known = |(shader, made): (Shader, CompiledModule)| {
+            let module = load_words(&made.words).unwrap();
+            let types = Types::of(&module);
+            let layouts = STRUCTS.iter().filter_map(|name| Some((*name, types.layout(name)?))).collect();
+            (shader.to_string(), layouts)
+        };
+        asked::unoptimised().map(known).collect()
+    });
+    assert!(STRUCTS.contains(&name), "{name}");
+    let of_name = |(module, layouts): &Known| {
+        let (_, layout) = layouts.iter().find(|(one, _)| *one == name)?;
+        Some((module.clone(), layout.clone()))
     };
-    ASKED.iter().filter_map(read).collect()
+    ASKED.iter().filter_map(of_name).collect()
 }
 
 #[track_caller]

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
 use depthleap::frame::texture_unit;
-use depthleap::glsl::Shader;
+use depthleap::glsl::compile::{CompiledModule, compile_unoptimised};
+use depthleap::glsl::{self, Shader};
 use depthleap::method::METHODS;
 use depthleap::part::form::Form;
 use depthleap::part::rows::{Method, Traversal};
@@ -17,6 +18,7 @@ use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
+use rayon::prelude::*;
 
 #[path = "../matrix/scenes.rs"]
 mod matrix;
@@ -134,4 +136,15 @@ pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
     let corners = steps().filter_map(|step| step.work.geometry()).map(|geometry| Shader::new(geometry.vertex, []));
     let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]);
     planned.chain(corners).chain(others).collect()
+}
+
+/// All shaders that may be asked for, made by the compiler itself. The optimiser, which takes most of the time, is left out: it may take
+/// constants, bindings and structs away, and changes none. What it makes of them is held by the tests that draw.
+pub fn unoptimised() -> impl ParallelIterator<Item = (Shader, CompiledModule)> {
+    shaders(plans()).into_par_iter().map(|shader| {
+        let text = glsl::built_in().text(shader.file).unwrap().with(shader.insert.as_deref());
+        let defines: Vec<&str> = shader.defines.iter().copied().collect();
+        let made = compile_unoptimised(&text, &defines).unwrap_or_else(|broken| panic!("{shader}: {broken}"));
+        (shader, made)
+    })
 }
