@@ -34,7 +34,8 @@ struct Sample {
     int surface;
     // Column and row of the pixel in the picture, from the upper left corner.
     ivec2 pixel;
-    // Of the frame: the eye (in an orthographic view where the ray comes from), the sides of the volume, and the distance between samples.
+    // Of the frame: the eye (in an orthographic view where the ray comes from), the sides of the volume, and the distance between
+    // samples.
     vec3 eye;
     vec3 extent;
     float spacing;

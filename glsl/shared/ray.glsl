@@ -33,7 +33,8 @@ vec2 ray_origin(vec2 pixel, int axis) {
 }
 
 #ifdef PLANES
-// The height over a clip plane of where the view's rays come from, and what its base, right and down rise by over it: double-floats. The plane itself, in volume space: its normal, to where it keeps, and its height over the origin.
+// The height over a clip plane of where the view's rays come from, and what its base, right and down rise by over it: double-floats.
+// The plane itself, in volume space: its normal, to where it keeps, and its height over the origin.
 struct ClipPlane {
     vec4 heights[2];
     vec4 plane;

@@ -258,7 +258,6 @@ uint free_from(ivec3 box) {
     precise vec3 middle = 0.5 * (begin + end);
     precise vec3 half_side = 0.5 * (end - begin);
     precise float radius = sqrt(dot_in_order(half_side, half_side));
-    bool cone = bundle.spread > 0.0;
 #ifdef PARALLEL
     vec3 direction = bundle.from.xyz;
     vec3 spreads = vec3(bundle.spread);
@@ -266,6 +265,7 @@ uint free_from(ivec3 box) {
     const float shortened = 1.0;
     const float lengthened = 1.0;
 #else
+    bool cone = bundle.spread > 0.0;
     precise vec3 from_eye = middle - bundle.from.xyz;
     precise float away = sqrt(dot_in_order(from_eye, from_eye));
     precise float too_near = scale() == 1 ? radius + 1.0 : AWAY * radius;

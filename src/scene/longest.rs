@@ -1,9 +1,9 @@
 //! The longest ray of a view, by branch and bound: a picture of 65535 x 65535 pixels costs some ten thousand rays, not
 //! four thousand million.
 //!
-//! For all pixels of a tile the components of where rays come from and go to lie between those of its corners, and so do the depths at
-//! which rays meet each face of the box and each clip plane; what lies between two of these is bounded as a whole, so that thin slabs are bounded
-//! well. A tile whose bound is no longer than a ray already found is left out; the others are cut in four.
+//! For all pixels of a tile the components of where rays come from, and of their directions, lie between those of its corners, and so
+//! do the depths at which rays meet each face of the box and each clip plane; what lies between two of these is bounded as a whole, so
+//! that thin slabs are bounded well. A tile whose bound is no longer than a ray already found is left out; the others are cut in four.
 
 use glam::DVec3;
 
@@ -101,7 +101,7 @@ fn faces(half: DVec3) -> [HalfSpace; 6] {
 /// A plane that all rays of a tile enter or leave by.
 struct Side {
     space: HalfSpace,
-    /// The least and the greatest over it of where rays come from.
+    /// The least and the greatest height over it of where rays come from.
     heights: [f64; 2],
     /// The least and the greatest that rays rise by over it in a unit of depth.
     rises: [f64; 2],
