@@ -7,11 +7,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY, [ENDLESS], [SURFACE]
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [SLICES], [PLANES], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#ifdef SLICES
+#include "shared/ray.glsl"
+#endif
 #include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
@@ -25,7 +28,7 @@
 
 bool segment_visible(Ray ray, uint first, uint end) {
     for (uint i = first; i < end;) {
-        Place place = place_at(ray, steps_to(i));
+        Place place = place_of(ray, i);
         ivec3 block = cell_of(place) / BLOCK;
         if (block_visible(block)) {
             return true;

@@ -14,7 +14,7 @@
 // the blend unit has rounded it; the others are found at 1. in the pass that follows.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED]
+//@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY | MARK_NONE, [CULL_DISCARD], [HOLES | PREINTEGRATED], [FEW_PIECES]
 //@takes [DENSE], [ENDLESS], [VALUES], [SURFACE], [LIT], [GRADIENTS]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART]
 

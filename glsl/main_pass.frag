@@ -10,7 +10,7 @@
 // writes opacity 1 to RES for it, which would change the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [CULL_DISCARD], [HOLES | PREINTEGRATED]
+//@takes [CULL_DISCARD], [HOLES | PREINTEGRATED], [FEW_PIECES]
 //@takes [VALUES], [SURFACE], [LIT], [GRADIENTS]
 //@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL]
 

@@ -3,13 +3,16 @@
 // greatest value of the volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [SHORT_RAYS]
+//@takes [SHORT_RAYS], [SLICES], [PLANES], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/opacity.glsl"
 #include "shared/projection.glsl"
 #ifdef SHORT_RAYS
 #include "shared/double_float.glsl"
+#ifdef SLICES
+#include "shared/ray.glsl"
+#endif
 #include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"
@@ -20,7 +23,12 @@ layout(location = 0) out vec4 accumulated;
 void main() {
     accumulated = vec4(no_sample().rgb, 1.0);
 #ifdef SHORT_RAYS
-    if (load_ray().samples == 0u) {
+#ifdef SLICES
+    bool takes_none = slices_met(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row)) == 0u;
+#else
+    bool takes_none = load_ray().samples == 0u;
+#endif
+    if (takes_none) {
         accumulated = vec4(vec3(x_of(frame.end)), 1.0);
     }
 #endif

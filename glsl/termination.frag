@@ -5,11 +5,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE], [SLICES], [PLANES], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
 #include "shared/double_float.glsl"
+#ifdef SLICES
+#include "shared/ray.glsl"
+#endif
 #include "shared/pixel.glsl"
 #include "shared/layer.glsl"
 #include "shared/samples.glsl"

@@ -247,7 +247,7 @@ fn scenes_without_an_environment_have_nothing_of_it() {
                 scene
             }
         });
-    for method in METHODS {
+    for method in METHODS.into_iter().filter(|method| (method.takes)(&with(method.name())).is_ok()) {
         let plan = |scene: &Scene| plan(scene, method.papers).unwrap();
         let plain = plan(&without(method.name()));
         assert_eq!(has_environment(&plain), [false; 2], "{}", method.name);

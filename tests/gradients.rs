@@ -276,6 +276,11 @@ fn texture_is_left_out_where_nothing_reads_gradients() {
         let why = Some("gradients are taken in the shader".to_owned());
         assert_eq!(names(&in_shader, method), (false, why), "{}", method.name);
         let there = scene("shells:12", |s| (precomputed(s), lit(s)).1);
+        if (method.takes)(&there).is_err() {
+            // Values of 2D textures have no gradients beside them.
+            assert!(method.stack().is_some(), "{}", method.name);
+            continue;
+        }
         assert_eq!(names(&there, method), (true, None), "{}", method.name);
     }
 }

@@ -53,10 +53,20 @@ fn scenes() -> Vec<Scene> {
     });
     let reflecting = scene(|s| (s.surface.iso, s.environment.builtin) = (Some(90.0), Some("sky".to_owned())));
     let cells = scene(|s| s.method.cell = 4);
+    // Stacks across each axis, and transfer functions that are searched.
+    let aside = scene(|s| s.camera.eye = [2.0, 0.1, 0.2]);
+    let above = scene(|s| s.camera.eye = [0.1, 2.0, 0.2]);
+    let many = |red: f64| {
+        scene(move |s| s.transfer.points = Some((0..20).map(|i| [f64::from(i) / 19.0, red, 0.5, 0.5, 0.4]).collect()))
+    };
     let mut bent = scene(|s| s.effects.refraction = Some(Refraction { points: vec![[0.2, 1.0], [0.8, 1.5]] }));
     let picture = Picture { size: [3, 2], texels: vec![[0.25, 0.5, 1.0]; 6] };
     bent.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.5 }));
     vec![
+        aside,
+        above,
+        many(0.5),
+        many(0.9),
         bent,
         reflecting,
         surface,

@@ -27,14 +27,14 @@ uint byte_of(Ray ray, ivec3 box) {
 
 // Samples from `i` on that show nothing.
 uint free_from(Ray ray, uint i) {
-    Place place = place_at(ray, steps_to(i));
+    Place place = place_of(ray, i);
     ivec3 box = cell_of(place) / CELL;
     uint byte = byte_of(ray, box);
     if (byte == 0u) {
         return 0u;
     }
     float inside = min(steps_inside(ray, place, box, CELL) * frame.step_voxels, FAR);
-    uint free = free_samples(inside + float(byte - 1u));
+    uint free = free_samples(ray, inside + float(byte - 1u));
     // What lies between the last free sample and the next one need not be free.
     return SPANS ? free - 1u : free;
 }

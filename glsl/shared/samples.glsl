@@ -1,5 +1,13 @@
 // Samples along a ray: how many and where. Twin: src/twin/samples.rs. Needs frame.glsl, double_float.glsl, pixel.glsl and
-// layer.glsl. OWN_RAYS: the ray is found here, not in passes before; ray.glsl.
+// layer.glsl. OWN_RAYS: the ray is found here, not in passes before; ray.glsl. SLICES: and samples lie on slices.
+
+#ifdef SLICES
+#define OWN_RAYS
+#endif
+#if defined(LAYER_BEFORE) || defined(SLICES)
+// Samples are counted from before where the ray, or its part that is drawn, begins.
+#define BEGINS_LATE
+#endif
 
 #ifndef OWN_RAYS
 layout(set = 0, binding = 1) uniform sampler2D entry;
@@ -34,11 +42,21 @@ struct Ray {
     vec3 momentum;
 #endif
 #ifdef LAYERS
-    // The part of the ray that is drawn, in steps; its first sample; samples on the whole ray.
+    // The part of the ray that is drawn, in steps; samples on the whole ray.
     float begin;
     float end;
-    uint first;
     uint all;
+#endif
+#if defined(LAYERS) || defined(SLICES)
+    // The first sample of the part of the ray that is drawn.
+    uint first;
+#endif
+#ifdef SLICES
+    // Steps from slice to slice; the pixel of the ray; of a ray on a slice the number of that, and its depth in front of the eye.
+    float stride;
+    vec2 pixel;
+    float slice;
+    float depth;
 #endif
 };
 
@@ -58,7 +76,7 @@ bool goes_on(vec4 before) {
 }
 #endif
 
-#ifdef LAYERS
+#if defined(LAYERS) && !defined(SLICES)
 // Cuts a ray at the layers before and behind: its samples are those of the whole ray that lie between or, where they stand
 // for parts of steps, whose steps do so in part.
 void cut(inout Ray ray) {
@@ -94,6 +112,30 @@ void cut(inout Ray ray) {
 }
 #endif
 
+#ifdef SLICES
+#include "shared/slices.glsl"
+
+// How much wider than slices reach the volume is for those who decide about them, and how many more of a spacing: no slice that is drawn
+// is taken for one beyond the ray, whatever rounding does.
+const float WIDER = 2.0 * SLICE_SLACK;
+const float MORE = 1e-3;
+
+// The ray of this pixel, by the slices it may meet.
+Ray load_ray() {
+    vec2 pixel = vec2(this_pixel()) + 0.5 + vec2(frame.first_column, frame.first_row);
+    Ray ray = ray_on_slice(pixel, 0.0, false);
+    vec3 origin = slice_origin(pixel);
+    vec3 way = slice_way(pixel);
+    vec2 between = slice_interval(origin, way, WIDER);
+#ifdef LAYERS
+    between = slice_part(between);
+#endif
+    uvec2 met = slices_between(origin, way, between, MORE);
+    ray.first = met.x;
+    ray.samples = met.y;
+    return ray;
+}
+#else
 // Sets how far a ray along a unit vector of volume space comes in a step.
 void stride_along(inout Ray ray, vec3 unit) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -146,10 +188,11 @@ Ray load_ray() {
     return ray_along(texelFetch(entry, pixel, 0).xyz, texelFetch(direction, pixel, 0));
 #endif
 }
+#endif
 
 // The first sample of the part of the ray that is drawn.
 uint first_sample(Ray ray) {
-#ifdef LAYERS
+#if defined(LAYERS) || defined(SLICES)
     return ray.first;
 #else
     return 0u;
@@ -158,7 +201,7 @@ uint first_sample(Ray ray) {
 
 // The first sample of the segment for main pass `pass`.
 uint segment_begin(Ray ray, uint pass) {
-#ifdef LAYER_BEFORE
+#ifdef BEGINS_LATE
     return max(pass * SAMPLES_PER_PASS, ray.first);
 #else
     return pass * SAMPLES_PER_PASS;
@@ -167,7 +210,7 @@ uint segment_begin(Ray ray, uint pass) {
 
 // One past the last sample of the segment that begins with sample `i`, where the ray has as many.
 uint segment_end(uint i) {
-#ifdef LAYER_BEFORE
+#ifdef BEGINS_LATE
     return (i / SAMPLES_PER_PASS + 1u) * SAMPLES_PER_PASS;
 #else
     return i + SAMPLES_PER_PASS;
@@ -176,7 +219,7 @@ uint segment_end(uint i) {
 
 // Whether the part of the ray that is drawn begins behind the segment for main pass `pass`.
 bool begins_later(Ray ray, uint pass) {
-#ifdef LAYER_BEFORE
+#ifdef BEGINS_LATE
     return (pass + 1u) * SAMPLES_PER_PASS <= ray.first && ray.first < ray.samples;
 #else
     return false;
@@ -190,7 +233,7 @@ layout(constant_id = 17) const float PARTIAL_DEPTH = 0.75;
 
 // Whether the part of the ray that is drawn ends at a surface, and main pass `pass` is the one of its last segment or behind.
 bool only_partial(Ray ray, uint pass) {
-#ifdef LAYERS
+#if defined(LAYERS) && !defined(SLICES)
     return ray.end < ray.steps && ray.samples > 0u && (ray.samples - 1u) / SAMPLES_PER_PASS <= pass;
 #else
     return false;
@@ -198,9 +241,22 @@ bool only_partial(Ray ray, uint pass) {
 }
 #endif
 
-// Steps from the entry point to sample `i`: from the index, never from adding steps up.
+// Steps from the entry point to sample `i`: from the index, never from adding steps up. A ray on a slice begins there.
 float steps_to(uint i) {
+#ifdef SLICES
+    return 0.0;
+#else
     return float(i) + frame.offset;
+#endif
+}
+
+// Steps from sample to sample.
+float stride_of(Ray ray) {
+#ifdef SLICES
+    return ray.stride;
+#else
+    return 1.0;
+#endif
 }
 
 // Steps from where the ray has bent last, of a place so many steps from the entry point.
@@ -234,6 +290,15 @@ Place place_at(Ray ray, float distance) {
     precise vec3 left = ((way - way_whole) + ray.part) + rest;
     vec3 carry = floor(left);
     return Place(ray.whole + way_whole + carry, left - carry);
+}
+
+// The place of sample `i` of the ray of a pixel.
+Place place_of(Ray ray, uint i) {
+#ifdef SLICES
+    return place_at(ray_on_slice(ray.pixel, float(i), true), 0.0);
+#else
+    return place_at(ray, steps_to(i));
+#endif
 }
 
 // The cell (2x2x2 voxels) a point lies in; border cells reach to the faces. Twin: src/scene/field.rs.

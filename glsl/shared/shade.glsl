@@ -26,7 +26,12 @@ bool on_surface(Ray ray, float steps) {
 #else
 // Steps that sample `i` stands for.
 float extent_of_sample(Ray ray, uint i) {
-#ifdef LAYERS
+#if defined(SLICES) && defined(VALUES)
+    return ray.stride;
+#elif defined(SLICES)
+    // Opacities that are taken as they stand are those of a slice.
+    return CORRECT_OPACITY ? ray.stride : 1.0;
+#elif defined(LAYERS)
     float to = min(i + 1 == ray.all ? ray.steps : float(i + 1), ray.end);
     return LAST_PARTIAL ? to - max(float(i), ray.begin) : 1.0;
 #else
@@ -42,7 +47,15 @@ float extent_of_sample(Ray ray, uint i) {
 #ifndef SURFACE
 // The value at sample `i`, or at the exit point, on the table's axes.
 float node_at(Ray ray, uint i) {
+#ifdef SLICES
+    // On the next slice, which may be outside, the value is that of the face before it.
+    if (i > 0u) {
+        ray = ray_on_slice(ray.pixel, ray.slice + 1.0, FILTER != HARDWARE);
+    }
+    return node_of(sample_volume(ray, 0.0));
+#else
     return node_of(sample_volume(ray, min(steps_to(i), ray.steps)));
+#endif
 }
 
 // Premultiplied colour of sample `i`, which stands for all values from its own, `front` on the table's axes, to that of the next
@@ -70,7 +83,7 @@ vec4 shade_sample(Ray ray, uint i) {
     if (in_hole(ray, i)) {
         return no_sample();
     }
-    float all = LAST_PARTIAL ? ray.steps : float(ray.samples);
+    float all = LAST_PARTIAL ? ray.steps : float(ray.samples) * stride_of(ray);
     return value_sample(sample_volume(ray, steps_to(i)), extent_of_sample(ray, i), all);
 }
 #else

@@ -21,8 +21,12 @@ bool block_visible(ivec3 block) {
 // Whether anything shows in the blocks from that of sample `i` to that of the next sample, or of the exit point, with
 // those beside the way, whose corners a ray may cut off.
 bool way_visible(Ray ray, uint i) {
-    ivec3 front = cell_of(place_at(ray, steps_to(i))) / BLOCK;
+    ivec3 front = cell_of(place_of(ray, i)) / BLOCK;
+#ifdef SLICES
+    ivec3 back = cell_of(place_of(ray, i + 1u)) / BLOCK;
+#else
     ivec3 back = cell_of(place_at(ray, min(steps_to(i + 1u), ray.steps))) / BLOCK;
+#endif
     ivec3 low = min(front, back);
     ivec3 high = max(front, back);
     for (int z = low.z; z <= high.z; ++z) {
@@ -39,12 +43,12 @@ bool way_visible(Ray ray, uint i) {
 
 // Samples after the one at `place`, in `block`, that lie in the same block, as far as f32 can tell.
 uint samples_in_block(Ray ray, Place place, ivec3 block) {
-    return uint(max(floor(steps_inside(ray, place, block, BLOCK) - BOUNDARY), 0.0));
+    return uint(max(floor(steps_inside(ray, place, block, BLOCK) / stride_of(ray) - BOUNDARY), 0.0));
 }
 
 // Samples from `i` on that show nothing: those that lie in the same block, where that is empty. For loops that leap.
 uint free_from(Ray ray, uint i) {
-    Place place = place_at(ray, steps_to(i));
+    Place place = place_of(ray, i);
     ivec3 block = cell_of(place) / BLOCK;
     if (block_visible(block)) {
         return 0u;

@@ -16,6 +16,9 @@ pub const APART: Feature = Feature {
         let ends = context.layers > 0 || context.opaque;
         match context.scene.settings.layers.partial {
             PartialSegments::Within => Err(Why::Untold),
+            PartialSegments::Apart if context.method.stack().is_some() => {
+                Err("every slice stands for the way to the next one".into())
+            }
             PartialSegments::Apart if !ends => Err("no surface ends a ray".into()),
             PartialSegments::Apart if !context.has(&DECISIONS) => {
                 Err(format!("{} culls no fragments", context.method.name).into())

@@ -29,6 +29,8 @@ pub fn may_end(context: &Context) -> bool {
             Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
             // Polygons and effects add to the opacity as much as they like.
             Ends::Opaque if context.blends || context.has(&EFFECT) => context.scene.settings.sampling.termination < 1.0,
+            // Where slices are far from each other along a ray, each stands for many steps.
+            Ends::Opaque if context.method.stack().is_some() => context.scene.settings.sampling.termination < 1.0,
             Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
             Ends::Reached => true,
             Ends::Never(_) => false,

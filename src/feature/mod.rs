@@ -67,10 +67,10 @@ use lights::{LIGHT_COLORS, LIT_SAMPLES};
 use opacity_correction::OPACITY_CORRECTION;
 use planes::CLIP_PLANES;
 use preintegration::PREINTEGRATION;
-use transfer_function::TRANSFER_FUNCTION;
+use transfer_function::{FEW_PIECES, TRANSFER_FUNCTION};
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 42] = [
+pub const FEATURES: [&Feature; 43] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -88,6 +88,7 @@ pub const FEATURES: [&Feature; 42] = [
     &INTERPOLATION,
     &COUNTING,
     &TRANSFER_FUNCTION,
+    &FEW_PIECES,
     &EXTRA_FETCHES,
     &DEPTH_LAYERS,
     &CLIP_BEGIN,
@@ -130,9 +131,10 @@ pub fn reads(context: &Context, hook: Hook) -> Vec<Access> {
     there.flat_map(|feature| (feature.reads)(context)).map(|resource| Usage::Sampled.of(resource)).collect()
 }
 
-/// The volume, where samples do not take their values from beside their gradients.
+/// The volume, or the stack of textures that the view is drawn with, where samples do not take their values from beside their gradients.
 pub fn values(context: &Context) -> Option<Access> {
-    (!context.has(&GRADIENTS_BESIDE_SAMPLES)).then(|| Usage::Sampled.of(resource::VOLUME))
+    let volume = context.view.stack_axis().map_or(resource::VOLUME, |axis| resource::STACKS[axis]);
+    (!context.has(&GRADIENTS_BESIDE_SAMPLES)).then(|| Usage::Sampled.of(volume))
 }
 
 /// The defines of a shader with a hook.

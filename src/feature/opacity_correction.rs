@@ -22,6 +22,10 @@ fn needed(context: &Context) -> Result<(), Why> {
     if context.scene.last() == Last::Partial {
         return Ok(());
     }
+    // The way from slice to slice is another one on each ray.
+    if context.view.slices.as_ref().is_some_and(|slices| !slices.evenly_spaced(&context.view.rays)) {
+        return Ok(());
+    }
     if context.has(&PREINTEGRATION) {
         return Err("the pre-integrated table is made for the step".into());
     }

@@ -20,8 +20,8 @@ use crate::scene::Region;
 use crate::scene::Scene;
 use crate::scene::settings::{Filter, Formats};
 use crate::vulkan::{
-    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, RenderPass,
-    RenderPassInfo, Sampler,
+    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, ImageShape,
+    RenderPass, RenderPassInfo, Sampler,
 };
 
 /// The objects of a frame.
@@ -178,7 +178,7 @@ fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMa
                 extent: [width, height, 1],
                 format: resource.format(formats),
                 usage,
-                volume: false,
+                shape: ImageShape::Flat,
                 // Both queues write it.
                 shared: computed,
             };
@@ -224,7 +224,7 @@ impl Compiler<'_> {
             framebuffer,
             pipeline,
             set,
-            corners: (draw.geometry.range)(self.scene, &self.plan.view),
+            corners: (draw.geometry.range)(self.scene, &self.plan.view, step.pass),
         })
     }
 

@@ -9,6 +9,7 @@ use crate::plan::Plan;
 use crate::projection::{self, surface_values};
 use crate::scene::Scene;
 use crate::scene::texture::{TextureChoice, TextureMap};
+use crate::scene::view::View;
 use crate::twin::{Effect, LeavingRay, MetSurface, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
@@ -109,6 +110,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let twin = Twin {
         scene,
         rays: plan.view.rays,
+        slices: plan.view.slices.as_deref(),
         passes: plan.passes,
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),
@@ -179,8 +181,8 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         for (step, count) in plan.frame().iter().zip(&mut fragments) {
             let of_step = match &step.work {
                 Work::Draw(draw) => {
-                    let met = hits.of(draw.geometry, twin, Sample { pixel: [column, row], raster }).fragments;
-                    (met > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
+                    let met = hits.of(draw.geometry, twin.scene, &plan.view, Sample { pixel: [column, row], raster });
+                    (met.fragments > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
                 }
                 Work::Pixels(pixels) => plan.view.region.contains([column, row]).then_some(Some(pixels.twin)),
                 _ => None,
@@ -188,8 +190,8 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
             let Some(pass) = of_step else { continue };
             twin.enter(&mut pixel, step.section);
             let effect = pass.map_or(Effect::Silent, |pass| pass(twin, &mut pixel, step.pass));
-            *count += u64::from(effect != Effect::Discarded);
-            frame.ideal += u64::from(effect == Effect::Contributed);
+            *count += effect.fragments();
+            frame.ideal += effect.contributed();
         }
         let on_outline = hits.undecided();
         frame.pixels.push(pixel.accumulated);
@@ -212,11 +214,11 @@ fn takes_part(draw: &Draw, pixel: &Pixel) -> bool {
 struct Coverage(Vec<(&'static Geometry, Hits)>);
 
 impl Coverage {
-    fn of(&mut self, geometry: &'static Geometry, twin: &Twin, sample: Sample) -> Hits {
+    fn of(&mut self, geometry: &'static Geometry, scene: &Scene, view: &View, sample: Sample) -> Hits {
         if let Some((_, known)) = self.0.iter().find(|(of, _)| *of == geometry) {
             return *known;
         }
-        let hits = (geometry.hits)(twin.scene, &twin.rays, sample);
+        let hits = (geometry.hits)(scene, view, sample);
         self.0.push((geometry, hits));
         hits
     }

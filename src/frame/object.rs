@@ -104,7 +104,7 @@ fn image(device: &Arc<Device>, resource: Resource, texture: &Texture, facts: &Fa
         extent: (texture.extent)(facts).map(|side| u32::try_from(side).unwrap_or(u32::MAX)),
         format: (texture.format)(facts),
         usage: Flags::SAMPLED | Flags::TRANSFER_DST | Flags::TRANSFER_SRC,
-        volume: !texture.flat,
+        shape: texture.shape,
         shared: (texture.shared)(facts),
     };
     Image::new(device, info)

@@ -14,7 +14,9 @@ use crate::math::interpolate::trilinear;
 use crate::resource::texels::texel_format;
 use crate::scene::TextureUnit;
 use crate::scene::texture::{FilterError, TexelFormat};
-use crate::vulkan::{Bound, Buffer, BufferInfo, Commands, DescriptorSet, Device, Image, ImageInfo, Place, Sampler};
+use crate::vulkan::{
+    Bound, Buffer, BufferInfo, Commands, DescriptorSet, Device, Image, ImageInfo, ImageShape, Place, Sampler,
+};
 
 /// Texels along a side of the measured texture.
 const SIDE: usize = 16;
@@ -105,7 +107,7 @@ fn interpolated(
             extent: [SIDE as u32; 3],
             format: texel_format(format),
             usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-            volume: true,
+            shape: ImageShape::Volume,
             shared: false,
         },
     )?;

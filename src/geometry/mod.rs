@@ -4,8 +4,10 @@
 
 mod polygons;
 mod screen;
+mod slices;
 mod volume_box;
 
 pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
+pub use slices::SLICES;
 pub use volume_box::{BOX_BACK, BOX_FRONT};

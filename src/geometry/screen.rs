@@ -11,6 +11,6 @@ pub static SCREEN: Geometry = Geometry {
     vertex: "box.vert",
     vertices: resource::SCREEN_CORNERS,
     corner: vk::Format::R32G32B32_SFLOAT,
-    range: |_, _| 0..3,
+    range: |_, _, _| 0..3,
     hits: |_, _, _| Hits { fragments: 1, undecided: false },
 };

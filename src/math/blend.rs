@@ -7,6 +7,8 @@ pub enum Blend {
     Replace,
     /// Front to back, premultiplied: `dst += (1 - dst.a) * src`.
     Over,
+    /// Back to front, premultiplied: `dst = src + (1 - src.a) * dst`.
+    InFront,
     /// The greater of both, channel by channel.
     Max,
     /// The lesser of both, channel by channel.
@@ -22,6 +24,7 @@ impl Blend {
         match self {
             Self::Replace => fragment,
             Self::Over => composite(pixel, fragment),
+            Self::InFront => composite(fragment, pixel),
             Self::Max => each(f64::max),
             Self::Min => each(f64::min),
             Self::Add => each(|a, b| a + b),

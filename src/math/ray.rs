@@ -71,6 +71,13 @@ impl ViewRays {
         depth.dot(corner - self.origin).max(self.near)
     }
 
+    /// The least depth of any point of a box, at least that at which rays begin.
+    pub fn nearest(&self, least: DVec3, greatest: DVec3) -> f64 {
+        let depth = self.to_picture().row(2);
+        let corner = DVec3::select(depth.cmpgt(DVec3::ZERO), least, greatest);
+        depth.dot(corner - self.origin).max(self.near)
+    }
+
     /// What leads from an arm, of a point from `origin`, to its place in the picture: column and row in pixels, both times the depth in
     /// perspective, and the depth.
     pub fn to_picture(&self) -> DMat3 {

@@ -10,6 +10,7 @@
 pub mod abreast;
 mod entries;
 pub mod error;
+pub mod fragment_kind;
 mod frame_times;
 pub mod law;
 pub mod limits;

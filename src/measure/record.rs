@@ -63,6 +63,7 @@ pub use super::entries::{
     Clock, CountsRecord, DifferenceRecord, EffectRecord, ErrorRecord, Ideal, LayerRecord, LeftOutRecord, OrbitFrame,
     PassTimes, PictureRecord, Saved, TextureRecord,
 };
+use super::fragment_kind::FragmentKind;
 use super::timing::{HostTimes, Timing, Timings};
 use crate::error::{Error, Result};
 use crate::method;
@@ -139,10 +140,9 @@ impl Run {
         self.method.parse().ok().and_then(method::find).is_some_and(Method::marks_sections)
     }
 
-    /// Whether its method's shader holds the whole ray; none where it runs on no device.
-    pub fn loops(&self) -> Option<bool> {
-        let method = self.method.parse().ok().and_then(method::find).filter(|method| method.on_device);
-        method.map(Method::loops)
+    /// What its fragments stand for; none where it runs on no device.
+    pub fn fragment_kind(&self) -> Option<FragmentKind> {
+        FragmentKind::of(&self.method)
     }
 
     /// `bounds + copy`, or whichever of the two there is.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
 use super::error::compare;
+use super::fragment_kind::FragmentKind;
 use super::frame_times::{gpu_times, host_times, pass_times};
 use super::law::law_of_skipping;
 use super::limits;
@@ -21,7 +22,6 @@ use crate::frame::{
 };
 use crate::method;
 use crate::part::form::Form;
-use crate::part::rows::{Method, Traversal};
 use crate::plan::{self, Plan};
 use crate::resource;
 use crate::scene::settings::{Cull, MethodSettings, Settings};
@@ -204,8 +204,8 @@ impl<'a> Runner<'a> {
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
             error = Some(compared.record("the same sum in f64 (`cpu`)"));
-            let segments = entry.plan.method.ends_rays && !entry.plan.method.loops();
-            ideal = segments.then_some(Ideal { main: frame.ideal });
+            let counted = entry.plan.method.ends_rays && !entry.plan.method.loops();
+            ideal = counted.then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
         let on_cpu = entry.frame.is_none();
@@ -280,7 +280,7 @@ impl<'a> Runner<'a> {
         let robust = self.checked.is_some_and(|checked| checked.device.used.robust);
         notes.extend(entry.scene.effect.as_deref().map(|effect| with_effect(effect, robust)));
         notes.extend(parts_between_layers(&entry.counts));
-        notes.extend(counted(entry.plan.method).map(str::to_owned));
+        notes.extend(FragmentKind::of(entry.plan.method.name).and_then(FragmentKind::words).map(str::to_owned));
         if entry.plan.method.skips_blocks() {
             let first = entry.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
@@ -320,17 +320,6 @@ fn with_effect(effect: &Effect, robust: bool) -> String {
          the reference{access}",
         effect.words()
     )
-}
-
-/// What counts of fragments are, where they are not those of passes.
-fn counted(method: &Method) -> Option<&'static str> {
-    match method.traversal {
-        Traversal::Passes => None,
-        Traversal::FragmentLoop => Some("a fragment is a ray: its loop takes all samples of it"),
-        Traversal::ComputeLoop => {
-            Some("fragments are invocations of a compute shader, one for each pixel that the box may cover")
-        }
-    }
 }
 
 /// What each part of rays between layers of polygons has.

@@ -1,16 +1,10 @@
 //! What a method saves against `rc-ert`, the claim in numbers: fragments, time, and how much of the one became the other.
 
-use crate::method;
-
+use super::fragment_kind::FragmentKind;
 use super::record::{Clock, Run, Saved};
 
 /// The method whose fragments and time are saved: rays end early, nothing is skipped [KW03 §2.1].
 pub const AGAINST: &str = "rc-ert";
-
-/// Whether a method's fragments are rays, not segments of them.
-fn loops(method: &str) -> bool {
-    method::METHODS.iter().any(|row| row.name == method && row.loops())
-}
 
 /// Fills in what each run saves against the `rc-ert` run of the same form, or else the first one. All are of one scene.
 pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
@@ -30,7 +24,7 @@ pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
         let form = rule.form().map_or_else(String::new, |form| format!(" ({form})"));
         run.saved = Some(Saved {
             against: format!("{AGAINST}{form}"),
-            fragments: (!loops(&run.method)).then(|| 1.0 - all(run) / all(rule)),
+            fragments: (run.fragment_kind() == Some(FragmentKind::Segment)).then(|| 1.0 - all(run) / all(rule)),
             time,
             clock: time.map(|_| clock),
         });

@@ -11,6 +11,7 @@ mod rc_block;
 mod rc_ert;
 mod rows;
 mod single_pass;
+mod slices;
 
 pub use cpu::CPU;
 pub use fused::{NN_CONE_FUSED, NN_DIRECTIONAL_FUSED, NN_OMNI_FUSED, NN_OPTIMAL_FUSED};
@@ -21,6 +22,10 @@ pub use rc_ert::RC_ERT;
 pub use single_pass::{
     SINGLE_PASS, SINGLE_PASS_BLOCK, SINGLE_PASS_BLOCK_COMPUTE, SINGLE_PASS_COMPUTE, SINGLE_PASS_DIRECTIONAL,
     SINGLE_PASS_DIRECTIONAL_COMPUTE, SINGLE_PASS_OMNI, SINGLE_PASS_OMNI_COMPUTE,
+};
+pub use slices::{
+    SLICES_2D, SLICES_2D_BLOCK, SLICES_2D_FTB, SLICES_2D_OMNI, SLICES_3D, SLICES_3D_BLOCK, SLICES_3D_FTB,
+    SLICES_3D_OMNI, SLICES_SHELLS, SLICES_SHELLS_BLOCK, SLICES_SHELLS_FTB, SLICES_SHELLS_OMNI,
 };
 
 use std::str::FromStr;
@@ -34,7 +39,7 @@ use crate::part::rows::Method;
 use crate::scene::settings::MethodName;
 
 /// Every method, in the order of tables and of the help.
-pub const METHODS: [&Method; 20] = [
+pub const METHODS: [&Method; 32] = [
     &RC,
     &RC_ERT,
     &RC_BLOCK,
@@ -54,6 +59,18 @@ pub const METHODS: [&Method; 20] = [
     &SINGLE_PASS_BLOCK_COMPUTE,
     &SINGLE_PASS_OMNI_COMPUTE,
     &SINGLE_PASS_DIRECTIONAL_COMPUTE,
+    &SLICES_2D,
+    &SLICES_2D_FTB,
+    &SLICES_2D_BLOCK,
+    &SLICES_2D_OMNI,
+    &SLICES_3D,
+    &SLICES_3D_FTB,
+    &SLICES_3D_BLOCK,
+    &SLICES_3D_OMNI,
+    &SLICES_SHELLS,
+    &SLICES_SHELLS_FTB,
+    &SLICES_SHELLS_BLOCK,
+    &SLICES_SHELLS_OMNI,
     &CPU,
 ];
 

@@ -1,11 +1,10 @@
 //! `nn-*`: near-neighbor skipping [Thesis §5.3, §5.3.1, §5.7].
 
 use super::rc_ert::RC_ERT;
-use super::rows::{BOUNDS, RAY_CASTER, cast, culled_forms, decided, empty, unswitched};
+use super::rows::{BOUNDS, RAY_CASTER, cast, culled_forms, decided, empty, main, unswitched};
 use crate::feature::DECISIONS;
 use crate::part::rows::{Ahead, Context, Method};
 use crate::part::steps::Steps;
-use crate::pass::main_pass::main_pass;
 use crate::pass::near_neighbor::near_neighbor;
 use crate::scene::settings::Distance;
 use crate::twin::section::section_end;
@@ -50,13 +49,13 @@ pub const NN_CONE: Method = by(
 );
 
 /// An intermediate pass before each main pass, both for rays whose section begins at or before it.
-fn passes(context: &Context, steps: &mut Steps) {
+pub(super) fn passes(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     empty(context, steps);
     for pass in 0..context.passes {
         steps.push(near_neighbor(context, pass, form));
         decided(context, steps, pass, None);
         let end = section_end(pass, context.passes) as f32;
-        steps.push(main_pass(context, pass, Some((form.cull, end))));
+        steps.push(main(context, pass, Some((form.cull, end))));
     }
 }

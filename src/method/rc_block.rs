@@ -18,7 +18,8 @@ pub const RC_BLOCK: Method = Method {
     ..RAY_CASTER
 };
 
-fn passes(context: &Context, steps: &mut Steps) {
+/// An intermediate pass that looks at blocks before each main pass that it may keep from running.
+pub(super) fn passes(context: &Context, steps: &mut Steps) {
     match context.has(&BLOCK_RANGES) {
         true => switched(context, steps, u32::from(!context.scene.settings.method.block_first), block_skip),
         false => switched(context, steps, 1, termination),

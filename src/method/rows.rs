@@ -11,7 +11,7 @@ use crate::part::rows::{Ahead, Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{
     alive, backdrop, clear, clip_begin, clip_winding, direction, entry, layer, lighting, main_pass, mark_copy, peel,
-    start,
+    slices, start,
 };
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark};
@@ -48,7 +48,7 @@ pub const RAY_CASTER: Method = Method {
 };
 
 /// Takes every scene but those that ask for what one loop alone can do.
-fn takes_in_passes(scene: &Scene) -> Result<()> {
+pub fn takes_in_passes(scene: &Scene) -> Result<()> {
     surface::check_opaque(scene)?;
     light_paths::check_passes(scene)?;
     refraction::check_passes(scene)?;
@@ -85,8 +85,11 @@ pub fn begin(context: &Context, steps: &mut Steps) {
     let decides = context.has(&DECISIONS) && !context.method.fused;
     let a_pass = 1 + usize::from(decides) + usize::from(context.has(&MARK_COPIES));
     steps.reserve(a_pass * context.passes as usize + (context.passes / BATCH) as usize + STEPS_BEFORE);
-    steps.push(entry::entry(context));
-    steps.push(direction::direction(context));
+    // Samples on slices need no ray.
+    if context.method.stack().is_none() {
+        steps.push(entry::entry(context));
+        steps.push(direction::direction(context));
+    }
     steps.extend(context.has(&START).then(|| start::start(context)));
 }
 
@@ -129,12 +132,12 @@ pub fn cast(context: &Context, steps: &mut Steps, passes: fn(&Context, &mut Step
     // A loop lights a surface where it meets it.
     let deferred = context.has(&ISO_SURFACE) && !context.method.loops();
     steps.extend(deferred.then(|| lighting::lighting(context)));
-    steps.extend(context.opaque.then(|| layer::opaque(context.layers)));
+    steps.extend(context.opaque.then(|| layer::opaque(context)));
 }
 
 /// Polygons: where clip geometry lets rays begin, the opaque ones once, the transparent ones layer by layer. For each layer the
 /// number of the step that counts it.
-fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
+pub fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
     if context.has(&CLIP_BEGIN) && context.scene.polygons.cuts_in_front() {
         steps.push(peel::clip(context));
     } else if context.has(&CLIP_BEGIN) {
@@ -152,9 +155,17 @@ fn peel(context: &Context, steps: &mut Steps) -> Vec<u32> {
         .collect()
 }
 
+/// A main pass: a segment of each ray, or some slices.
+pub fn main(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
+    match context.method.stack() {
+        Some(_) => slices::slices(context, pass, culled),
+        None => main_pass::main_pass(context, pass, culled),
+    }
+}
+
 /// Main passes that run for every fragment.
 pub fn unswitched(context: &Context, steps: &mut Steps) {
-    steps.extend((0..context.passes).map(|pass| main_pass::main_pass(context, pass, None)));
+    steps.extend((0..context.passes).map(|pass| main(context, pass, None)));
 }
 
 /// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
@@ -172,7 +183,7 @@ pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Co
             decided(context, steps, pass, None);
             culled = Some((form.cull, SWITCH));
         }
-        steps.push(main_pass::main_pass(context, pass, culled));
+        steps.push(main(context, pass, culled));
     }
 }
 

@@ -6,7 +6,6 @@ use std::ops::Range;
 use ash::vk;
 
 use super::resource::Resource;
-use crate::math::ray::ViewRays;
 use crate::scene::Scene;
 use crate::scene::view::View;
 
@@ -20,10 +19,10 @@ pub struct Geometry {
     pub vertices: Resource,
     /// The format of a corner, which is all that the vertex shader reads.
     pub corner: vk::Format,
-    /// Which corners of the buffer are drawn, three a triangle.
-    pub range: fn(&Scene, &View) -> Range<u32>,
+    /// Which corners of the buffer are drawn in a main pass, three a triangle.
+    pub range: fn(&Scene, &View, u32) -> Range<u32>,
     /// The fragments of a pixel, in f64.
-    pub hits: fn(&Scene, &ViewRays, Sample) -> Hits,
+    pub hits: fn(&Scene, &View, Sample) -> Hits,
 }
 
 /// Where a pixel is asked for its fragments.

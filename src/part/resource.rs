@@ -12,7 +12,7 @@ use crate::scene::settings::Formats;
 use crate::scene::view::View;
 use crate::structure::Lookup;
 use crate::truth::preintegrated::PreintegratedTable;
-use crate::vulkan::texel_bytes;
+use crate::vulkan::{ImageShape, texel_bytes};
 
 /// An image or a buffer of a frame, or of a build.
 #[derive(Clone, Copy)]
@@ -54,8 +54,7 @@ pub struct Texture {
     pub format: fn(&Facts) -> vk::Format,
     /// Texels along x, y and z.
     pub extent: fn(&Facts) -> [usize; 3],
-    /// Whether it has two dimensions only.
-    pub flat: bool,
+    pub shape: ImageShape,
     /// Whether the texture unit interpolates it, where the scene asks for that.
     pub filtered: bool,
     /// Whether compute and graphics queue read it alike.

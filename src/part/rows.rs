@@ -12,6 +12,7 @@ use crate::error::{Error, Result};
 use crate::projection::{self, Projection};
 use crate::scene::Scene;
 use crate::scene::settings::Distance;
+use crate::scene::slices::Stack;
 use crate::scene::view::View;
 use crate::structure::Lookup;
 
@@ -35,6 +36,8 @@ pub enum Traversal {
     FragmentLoop,
     /// The same loop in a compute shader.
     ComputeLoop,
+    /// Slices of the volume, a sample each [Thesis §3.4].
+    Slices(Stack),
 }
 
 /// A renderer. The list of them is `crate::method::METHODS`.
@@ -117,7 +120,20 @@ impl Method {
 
     /// Whether one shader holds the whole ray, so that nothing decides between main passes and nothing is culled.
     pub fn loops(&self) -> bool {
-        self.traversal != Traversal::Passes
+        matches!(self.traversal, Traversal::FragmentLoop | Traversal::ComputeLoop)
+    }
+
+    /// How its slices lie; none where it has none.
+    pub fn stack(&self) -> Option<Stack> {
+        match self.traversal {
+            Traversal::Slices(stack) => Some(stack),
+            Traversal::Passes | Traversal::FragmentLoop | Traversal::ComputeLoop => None,
+        }
+    }
+
+    /// Whether slices are drawn back to front, all of them in one pass.
+    pub fn back_to_front(&self) -> bool {
+        self.stack().is_some() && !self.ends_rays
     }
 
     /// The method with the same samples that skips nothing: itself, where it skips nothing.

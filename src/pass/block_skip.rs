@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::{constants, cull};
+use super::{constants, cull, rays};
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
@@ -15,17 +15,13 @@ use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
-    let mut accesses = vec![
-        Usage::Vertices.of(resource::BOX),
-        Usage::Sampled.of(resource::FRAME),
-        Usage::Sampled.of(resource::ENTRY),
-        Usage::Sampled.of(resource::DIRECTION),
-    ];
+    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
+    let mut draw = Draw::plain(&BOX_FRONT, "block_skip.frag", twin::block_skip::block_skip);
+    rays::find(context, &mut draw, &mut accesses);
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
     accesses.extend(feature::reads(context, Hook::Decide));
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
-    let mut draw = Draw::plain(&BOX_FRONT, "block_skip.frag", twin::block_skip::block_skip);
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));

@@ -1,10 +1,10 @@
-//! Colours of a layer under what is in front of it [Thesis ch. 6 §2.2].
+//! Colours of a layer under what is in front of it [Thesis ch. 6 §2.2], or over what is behind it [Thesis ch. 6 §2.1].
 
 use std::sync::Arc;
 
+use super::slices;
 use crate::feature::ISO_SURFACE;
 use crate::geometry::SCREEN;
-use crate::math::blend::Blend;
 use crate::part::access::Usage;
 use crate::part::rows::Context;
 use crate::part::{Draw, Group, Step, Work};
@@ -13,7 +13,7 @@ use crate::twin::{self, TwinPass};
 
 /// Blends the colours of `layer` in, wherever it has some and no iso-surface is in front of it.
 pub fn layer(context: &Context, layer: u32) -> Step {
-    let mut step = blended(format!("layer #{layer}"), layer, twin::layer::layer);
+    let mut step = blended(context, format!("layer #{layer}"), layer, twin::layer::layer);
     // In a loop a surface in front of it has ended the ray, whose opacity leaves nothing to be seen behind it.
     if context.has(&ISO_SURFACE) && !context.method.loops() {
         Arc::make_mut(&mut step.accesses).push(Usage::Sampled.of(resource::SURFACE_HIT));
@@ -26,11 +26,11 @@ pub fn layer(context: &Context, layer: u32) -> Step {
 }
 
 /// Blends the colours of opaque polygons in, whose layer is that behind the transparent ones.
-pub fn opaque(layer: u32) -> Step {
-    blended("layer_opaque".to_owned(), layer, twin::layer::opaque)
+pub fn opaque(context: &Context) -> Step {
+    blended(context, "layer_opaque".to_owned(), context.layers, twin::layer::opaque)
 }
 
-fn blended(name: String, layer: u32, twin: TwinPass) -> Step {
+fn blended(context: &Context, name: String, layer: u32, twin: TwinPass) -> Step {
     let accesses = vec![
         Usage::Vertices.of(resource::SCREEN_CORNERS),
         Usage::Sampled.of(resource::LAYER.at(layer as u16)),
@@ -38,6 +38,6 @@ fn blended(name: String, layer: u32, twin: TwinPass) -> Step {
         Usage::Color.of(resource::ACCUMULATED),
     ];
     let mut draw = Draw::plain(&SCREEN, "layer.frag", twin);
-    draw.blend = Blend::Over;
+    draw.blend = slices::blend(context);
     Step::drawn(name, Group::Blend, layer, accesses, draw)
 }

@@ -21,6 +21,8 @@ pub mod mark_copy;
 pub mod near_neighbor;
 pub mod peel;
 mod polygons;
+pub mod rays;
 pub mod single_pass;
+pub mod slices;
 pub mod start;
 pub mod termination;

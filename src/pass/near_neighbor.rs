@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::{constants, cull};
+use super::{constants, cull, rays};
 use crate::feature::layers::first_section;
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
@@ -18,21 +18,17 @@ use crate::twin::section::section_end;
 
 /// Runs before main pass `pass`, for rays whose stored section begins at or before it.
 pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
-    let mut accesses = vec![
-        Usage::Vertices.of(resource::BOX),
-        Usage::Sampled.of(resource::FRAME),
-        Usage::Sampled.of(resource::ENTRY),
-        Usage::Sampled.of(resource::DIRECTION),
-    ];
-    accesses.extend(feature::reads(context, Hook::Ray));
-    accesses.extend(feature::reads(context, Hook::RayEnd));
-    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
-    accesses.extend(feature::reads(context, Hook::Decide));
+    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
     // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
     let anew = context.section > first_section(context) && pass == 0;
     let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
     let twin = if anew { twin::near_neighbor::anew } else { twin::near_neighbor::near_neighbor };
     let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin);
+    rays::find(context, &mut draw, &mut accesses);
+    accesses.extend(feature::reads(context, Hook::Ray));
+    accesses.extend(feature::reads(context, Hook::RayEnd));
+    accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
+    accesses.extend(feature::reads(context, Hook::Decide));
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));

@@ -1,6 +1,6 @@
 //! What rays begin with, in every pixel the box covers: a ray that is skipped never draws it.
 
-use super::constants;
+use super::{constants, rays};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::rows::Context;
@@ -12,8 +12,8 @@ pub fn start(context: &Context) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
     let mut draw = Draw::plain(&BOX_FRONT, "start.frag", twin::start::start);
     if context.projection().levels_in_x(context.scene).falls() {
-        accesses.push(Usage::Sampled.of(resource::DIRECTION));
         draw.define(["SHORT_RAYS"]);
+        rays::find_length(context, &mut draw, &mut accesses);
     }
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
     draw.specialize([constants::projection(context)]);

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::{constants, cull};
+use super::{constants, cull, rays};
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
@@ -15,16 +15,12 @@ use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
-    let mut accesses = vec![
-        Usage::Vertices.of(resource::BOX),
-        Usage::Sampled.of(resource::FRAME),
-        Usage::Sampled.of(resource::ENTRY),
-        Usage::Sampled.of(resource::DIRECTION),
-    ];
+    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
+    let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
+    rays::find(context, &mut draw, &mut accesses);
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
-    let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));

@@ -19,7 +19,7 @@ use crate::resource;
 use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
-use crate::scene::{Region, Scene};
+use crate::scene::{Region, Scene, slices};
 use crate::structure::Lookup;
 use crate::twin::section::most_sections;
 use builds::{Build, Builds};
@@ -164,7 +164,15 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     feature::backdrop::check(scene)?;
     feature::gradients::check(scene)?;
     let view = View::new(scene)?;
+    let view = match method.stack() {
+        Some(stack) => {
+            let slices = if method.back_to_front() { None } else { Some(scene.settings.sampling.samples_per_pass) };
+            view.sliced(scene, stack, slices)?
+        }
+        None => view,
+    };
     let passes = passes(scene, &view, method);
+    check_slices(scene, &view)?;
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
@@ -191,7 +199,11 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     });
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
-    let pixel_error = precision::pixel_error(scene, error, view.longest_samples, passes, ends);
+    // A sample on a slice may stand for several steps.
+    let stride = view.slices.as_ref().map_or(1.0, |slices| slices.longest_stride(&view.rays, view.size));
+    let samples = (f64::from(view.longest_samples) + 1.0) * stride;
+    let samples = if view.slices.is_some() { samples.min(f64::from(u32::MAX)) as u32 } else { view.longest_samples };
+    let pixel_error = precision::pixel_error(scene, error, samples, passes, ends);
     Ok(Plan { view, method, passes, form: choice.form, distance, texture, pixel_error, steps, builds, left_out })
 }
 
@@ -201,6 +213,14 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
         return u32::from(view.longest_samples > 0);
     }
     let sampling = &scene.settings.sampling;
+    if let Some(slices) = &view.slices {
+        if view.region.pixels() == 0 {
+            return 0;
+        }
+        let needed = slices.count.div_ceil(slices.of_pass.unwrap_or(slices.count).max(1));
+        let forced = sampling.passes > 0 && needed > 0 && slices.of_pass.is_some();
+        return if forced { sampling.passes } else { needed };
+    }
     let samples = match view.longest_samples {
         longest if scene.settings.method.planner || longest == 0 => longest,
         _ => whole_diagonal(scene),
@@ -234,6 +254,10 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));
         }
+    } else if context.method.stack().is_some() {
+        if scene.settings.sampling.passes > 0 && context.method.back_to_front() {
+            left_out.push(LeftOut::new("forced main passes", "one pass draws all slices"));
+        }
     } else if scene.settings.method.planner && scene.settings.sampling.passes == 0 {
         let diagonal = whole_diagonal(scene).div_ceil(scene.settings.sampling.samples_per_pass);
         if diagonal > passes {
@@ -245,6 +269,21 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
         }
     }
     left_out
+}
+
+/// Whether so many slices can be drawn.
+///
+/// # Errors
+/// When they cannot, with what to change.
+fn check_slices(scene: &Scene, view: &View) -> Result<()> {
+    match &view.slices {
+        Some(slices) if slices.count > slices::MOST => Err(Error::usage(
+            format!("--step {}", scene.settings.sampling.step),
+            format!("this view needs {} slices, and at most {} are possible", slices.count, slices::MOST),
+            "take a longer step",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Whether a frame of so many main passes can be run.

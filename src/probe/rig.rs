@@ -12,8 +12,8 @@ use crate::error::Result;
 use crate::glsl;
 use crate::vulkan::{
     Attachment, Blend, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DepthState, DescriptorSet, Device,
-    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, QueryKind, QueryPool, RenderPass,
-    RenderPassInfo, Role, Sampler, Scope, ShaderModule, has_stencil,
+    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, ImageShape, Place, QueryKind, QueryPool,
+    RenderPass, RenderPassInfo, Role, Sampler, Scope, ShaderModule, has_stencil,
 };
 
 const COLOR: vk::Format = vk::Format::R32_SFLOAT;
@@ -120,7 +120,7 @@ impl Rig {
                 extent: [side, side, 1],
                 format,
                 usage,
-                volume: false,
+                shape: ImageShape::Flat,
                 shared: false,
             };
             Image::new(device, info)

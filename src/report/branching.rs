@@ -1,6 +1,7 @@
 //! Culling by fixed function against branching in a shader: the fastest ray caster of several passes beside the fastest loop of a
 //! single pass [Stegmaier05 §7].
 
+use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::Run;
 use crate::report::comparison::{RunGroup, label};
 use crate::report::cost::{extra_fetches, least_cost};
@@ -53,12 +54,14 @@ pub fn branching(groups: &[RunGroup]) -> Option<String> {
 /// The rivals of a scene; none where it has no run of `rc-ert`, by whose clock times are compared.
 fn rivals(group: &RunGroup) -> Option<Rivals> {
     let clock = group.runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock)?;
-    let timed = |loops: bool| {
-        let runs = group.runs.iter().map(|(_, run)| *run).filter(move |run| run.loops() == Some(loops));
+    let timed = |kinds: &'static [FragmentKind]| {
+        let of_kind = |run: &&Run| run.fragment_kind().is_some_and(|kind| kinds.contains(&kind));
+        let runs = group.runs.iter().map(|(_, run)| *run).filter(of_kind);
         let timed = runs.filter_map(|run| Some((run, run.milliseconds(clock)?)));
         timed.min_by(|a, b| a.1.total_cmp(&b.1))
     };
-    let ((passes, of_passes), (one_loop, of_loop)) = (timed(false)?, timed(true)?);
+    let ((passes, of_passes), (one_loop, of_loop)) =
+        (timed(&[FragmentKind::Segment])?, timed(&[FragmentKind::Ray, FragmentKind::Pixel])?);
     let ratio = of_loop / of_passes;
     ratio.is_finite().then(|| Rivals {
         passes: label(passes),

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::number::{milliseconds, percent, thousands};
 use super::table::{Cell, Column, Table};
+use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::{Clock, CountsRecord, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
@@ -137,9 +138,6 @@ const COLUMNS: [(&str, &str, bool); 15] = [
     ("largest", "error", true),
 ];
 
-/// Why counts of a loop are not compared with those of passes.
-const OF_RAYS: &str = "a fragment is a ray here, not a segment of one";
-
 /// The comparison of one group.
 pub fn table(group: &RunGroup) -> Table {
     let head =
@@ -204,16 +202,20 @@ impl Sheet {
                 let clock = saved.clock.map_or("", Clock::words);
                 self.noted(&format!("{number:.digits$}"), format!("against {}; {clock}", saved.against))
             }
-            None if saved.fragments.is_none() => self.absent(OF_RAYS),
-            None => self.absent("not timed, or no fragment was saved"),
+            None => {
+                let apart = run.fragment_kind().and_then(FragmentKind::apart);
+                self.absent(
+                    apart.filter(|_| saved.fragments.is_none()).unwrap_or("not timed, or no fragment was saved"),
+                )
+            }
         }
     }
 
     /// A run's fragments as a part of the baseline's.
     fn part_of(&mut self, run: &Run, baseline: Option<&Run>, of: fn(&CountsRecord) -> u64) -> Cell {
-        match run.loops() {
-            Some(true) => self.absent(OF_RAYS),
-            _ => self.share(of(&run.fragments), baseline.map(|baseline| of(&baseline.fragments))),
+        match run.fragment_kind().and_then(FragmentKind::apart) {
+            Some(apart) => self.absent(apart),
+            None => self.share(of(&run.fragments), baseline.map(|baseline| of(&baseline.fragments))),
         }
     }
 

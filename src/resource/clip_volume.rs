@@ -6,6 +6,7 @@ use ash::vk;
 
 use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
 use crate::shared;
+use crate::vulkan::ImageShape;
 
 /// The values of the clip volume. In f32 whatever its type, so that a voxel that has the very value of the level is inside.
 pub const CLIP_VOLUME: Resource = Resource::new(&CLIP_VOLUME_INFO);
@@ -15,7 +16,7 @@ static CLIP_VOLUME_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R32_SFLOAT,
         extent: |facts| facts.scene.clip_volume.as_ref().map_or([1; 3], |clip| clip.field.dims()),
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: false,
         shared: |_| true,
     }),

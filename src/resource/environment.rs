@@ -6,6 +6,7 @@ use ash::vk;
 
 use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
 use crate::shared;
+use crate::vulkan::ImageShape;
 
 /// The picture of what is around the volume.
 pub const ENVIRONMENT: Resource = Resource::new(&ENVIRONMENT_INFO);
@@ -18,7 +19,7 @@ static ENVIRONMENT_INFO: ResourceInfo = ResourceInfo {
             let [width, height] = facts.scene.environment.as_ref().map_or([1; 2], |one| one.picture.size);
             [width, height, 1]
         },
-        flat: true,
+        shape: ImageShape::Flat,
         filtered: false,
         shared: |_| true,
     }),

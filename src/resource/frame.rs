@@ -38,6 +38,40 @@ static FRAME_INFO: ResourceInfo = ResourceInfo {
     }),
 };
 
+/// Polygons of slices.
+pub const SLICE_CORNERS: Resource = Resource::new(&SLICE_CORNERS_INFO);
+static SLICE_CORNERS_INFO: ResourceInfo = ResourceInfo {
+    name: "slice_corners",
+    holds: "corners of triangles in clip space, and the number of their slice; in the order of drawing",
+    kind: ResourceKind::Vertices(|facts, _| {
+        facts
+            .view
+            .slices
+            .as_ref()
+            .map_or(0, |slices| size_of::<[f32; 4]>() * slices.polygons(facts.scene).corners.len()) as u64
+    }),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let slices = facts.view.slices.as_ref();
+        slices.map_or_else(Cow::default, |slices| {
+            bytemuck::cast_slice(&slices.polygons(facts.scene).corners).to_vec().into()
+        })
+    }),
+};
+
+/// Where slices lie.
+pub const SLICES: Resource = Resource::new(&SLICES_INFO);
+static SLICES_INFO: ResourceInfo = ResourceInfo {
+    name: "slices",
+    holds: "where slices lie, `Slices` of slices.glsl",
+    kind: ResourceKind::Uniform(|_, _| size_of::<shared::Slices>() as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let slices = facts.view.slices.as_ref().map(|slices| shared::Slices::new(facts.scene, slices));
+        slices.iter().flat_map(|slices| bytemuck::bytes_of(slices).to_vec()).collect()
+    }),
+};
+
 /// Planes that rays are cut at.
 pub const CLIP_PLANES: Resource = Resource::new(&CLIP_PLANES_INFO);
 static CLIP_PLANES_INFO: ResourceInfo = ResourceInfo {

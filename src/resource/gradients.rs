@@ -5,6 +5,7 @@ use ash::vk;
 use crate::part::resource::{Bytes, Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
 use crate::scene::Scene;
 use crate::scene::settings::{GradientTexture, ShadingSettings};
+use crate::vulkan::ImageShape;
 
 /// Gradients at voxel centres. The index tells operator and format apart.
 pub const GRADIENTS: Resource = Resource::new(&GRADIENTS_INFO);
@@ -18,7 +19,7 @@ static GRADIENTS_INFO: ResourceInfo = ResourceInfo {
             GradientTexture::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
         },
         extent: |facts| facts.scene.field.dims(),
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: true,
         shared: |_| true,
     }),

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use ash::vk;
+use rayon::prelude::*;
 
 use super::texels::{Texels, texel_format};
 use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
@@ -10,6 +11,7 @@ use crate::scene::texture::TextureChoice;
 use crate::shared;
 use crate::structure::cells::Values;
 use crate::truth::preintegrated;
+use crate::vulkan::ImageShape;
 
 /// The scalar field.
 pub const VOLUME: Resource = Resource::new(&VOLUME_INFO);
@@ -19,13 +21,68 @@ static VOLUME_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Texture(Texture {
         format: |facts| texel_format(TextureChoice::of(facts.scene).format),
         extent: |facts| facts.scene.field.dims(),
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: true,
         shared: |_| true,
     }),
     life: Life::Volume,
     origin: Origin::Host(|facts| bytes_of(Texels::of(facts.scene).values)),
 };
+
+/// The volume as stacks of 2D textures, across each of its axes [Thesis §3.4.1].
+pub const STACKS: [Resource; 3] = [Resource::new(&STACK_X), Resource::new(&STACK_Y), Resource::new(&STACK_Z)];
+static STACK_X: ResourceInfo = stack(|facts| stack_sides(facts, 0), |facts| stack_bytes(facts, 0));
+static STACK_Y: ResourceInfo = stack(|facts| stack_sides(facts, 1), |facts| stack_bytes(facts, 1));
+static STACK_Z: ResourceInfo = stack(|facts| stack_sides(facts, 2), |facts| stack_bytes(facts, 2));
+
+const fn stack(sides: fn(&Facts) -> [usize; 3], bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>) -> ResourceInfo {
+    ResourceInfo {
+        name: "stack",
+        holds: "scalar values at voxel centres, a layer for each place along an axis",
+        kind: ResourceKind::Texture(Texture {
+            format: |facts| texel_format(TextureChoice::of(facts.scene).format),
+            extent: sides,
+            shape: ImageShape::Layers,
+            filtered: true,
+            shared: |_| true,
+        }),
+        life: Life::Volume,
+        origin: Origin::Host(bytes),
+    }
+}
+
+/// The axes of the volume along the columns, the rows and the layers of the stack across `axis`.
+fn stack_axes(axis: usize) -> [usize; 3] {
+    match axis {
+        0 => [1, 2, 0],
+        1 => [0, 2, 1],
+        _ => [0, 1, 2],
+    }
+}
+
+fn stack_sides(facts: &Facts, axis: usize) -> [usize; 3] {
+    stack_axes(axis).map(|axis| facts.scene.field.dims()[axis])
+}
+
+/// The volume's texels in the order of the stack across `axis`.
+fn stack_bytes<'a>(facts: &Facts<'a>, axis: usize) -> Cow<'a, [u8]> {
+    let (dims, axes) = (facts.scene.field.dims(), stack_axes(axis));
+    let bytes = bytes_of(Texels::of(facts.scene).values);
+    if axes == [0, 1, 2] {
+        return bytes;
+    }
+    let texel = bytes.len() / dims.iter().product::<usize>().max(1);
+    let strides = [1, dims[0], dims[0] * dims[1]];
+    let [columns, rows, _] = axes.map(|axis| dims[axis]);
+    let mut ordered = vec![0; bytes.len()];
+    ordered.par_chunks_mut((columns * rows * texel).max(1)).enumerate().for_each(|(layer, texels)| {
+        for (i, place) in texels.chunks_exact_mut(texel).enumerate() {
+            let at = (i % columns) * strides[axes[0]] + (i / columns) * strides[axes[1]] + layer * strides[axes[2]];
+            place.copy_from_slice(&bytes[at * texel..][..texel]);
+        }
+    });
+    ordered.into()
+}
 
 /// The texels' own bytes, which are those of the file where these do.
 fn bytes_of(values: Values) -> Cow<[u8]> {
@@ -50,7 +107,7 @@ static HOLES_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R8_UINT,
         extent: |facts| facts.scene.field.cells(),
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: false,
         shared: |_| true,
     }),
@@ -81,6 +138,33 @@ static GREY_TRANSFER_INFO: ResourceInfo = ResourceInfo {
     origin: Origin::Host(|facts| rows(facts, true)),
 };
 
+/// The same pieces as constants of all invocations, where they are few.
+pub const FEW_TRANSFER: Resource = Resource::new(&FEW_TRANSFER_INFO);
+static FEW_TRANSFER_INFO: ResourceInfo =
+    few_pieces("three rows a piece, as in the storage buffer", |facts| few_rows(rows(facts, false)));
+
+/// The same without colours.
+pub const FEW_GREY_TRANSFER: Resource = Resource::new(&FEW_GREY_TRANSFER_INFO);
+static FEW_GREY_TRANSFER_INFO: ResourceInfo =
+    few_pieces("two rows a piece, as in the storage buffer", |facts| few_rows(rows(facts, true)));
+
+const fn few_pieces(holds: &'static str, bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>) -> ResourceInfo {
+    ResourceInfo {
+        name: "transfer",
+        holds,
+        kind: ResourceKind::Uniform(|_, _| (shared::FEW_ROWS * ROW) as u64),
+        life: Life::Transfer,
+        origin: Origin::Host(bytes),
+    }
+}
+
+/// Rows of the buffer of few pieces, of which those that no piece has are 0.
+fn few_rows(rows: Cow<'_, [u8]>) -> Cow<'static, [u8]> {
+    let mut bytes = rows.into_owned();
+    bytes.resize(shared::FEW_ROWS * ROW, 0);
+    bytes.into()
+}
+
 fn rows(facts: &Facts, grey: bool) -> Cow<'static, [u8]> {
     let pieces = shared::pieces(&Texels::of(facts.scene).transfer(&facts.scene.transfer));
     bytemuck::cast_slice(&shared::rows(&pieces, grey)).to_vec().into()
@@ -97,7 +181,7 @@ static PREINTEGRATED_INFO: ResourceInfo = ResourceInfo {
             let nodes = preintegrated::nodes(facts.scene);
             [nodes, nodes, 1]
         },
-        flat: true,
+        shape: ImageShape::Flat,
         filtered: false,
         shared: |_| true,
     }),

@@ -7,6 +7,7 @@ use crate::scene::backdrop::Pattern;
 use crate::scene::environment::Picture;
 use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::shared;
+use crate::vulkan::ImageShape;
 
 /// Indices of refraction.
 pub const REFRACTIVE_INDEX: Resource = Resource::new(&REFRACTIVE_INDEX_INFO);
@@ -34,7 +35,7 @@ static BACKDROP_INFO: ResourceInfo = ResourceInfo {
             let [width, height] = picture(facts).map_or([1; 2], |picture| picture.size);
             [width, height, 1]
         },
-        flat: true,
+        shape: ImageShape::Flat,
         filtered: false,
         shared: |_| true,
     }),

@@ -14,6 +14,7 @@ use crate::structure::blocks::{BLOCK, CODES, visibility_table};
 use crate::structure::bundle::Bundles;
 use crate::structure::cells::Support;
 use crate::structure::grid::{Grid, OCTANTS};
+use crate::vulkan::ImageShape;
 
 /// Minimum and maximum of every cell of a grid, whose side is the index.
 pub const CELL_RANGE: Resource = Resource::new(&CELL_RANGE_INFO);
@@ -40,7 +41,7 @@ static BLOCK_TABLE_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R8_UINT,
         extent: |_| [CODES, CODES, 1],
-        flat: true,
+        shape: ImageShape::Flat,
         filtered: false,
         shared: |_| true,
     }),
@@ -87,7 +88,7 @@ static NEAREST_DISTANCE_INFO: ResourceInfo = ResourceInfo {
         // A byte a cell, or all octants of a cell in one texel.
         format: |facts| if octants(facts) == 1 { vk::Format::R8_UINT } else { vk::Format::R32G32_UINT },
         extent: |facts| grid(facts).cells,
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: false,
         // Others are made from those of all views.
         shared: |facts| facts.lookup.is_none_or(|lookup| lookup.view.is_none()),
@@ -104,7 +105,7 @@ static OMNI_DISTANCE_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Texture(Texture {
         format: |_| vk::Format::R8_UINT,
         extent: |facts| grid(facts).cells,
-        flat: false,
+        shape: ImageShape::Volume,
         filtered: false,
         shared: |_| true,
     }),

@@ -1,13 +1,17 @@
 //! A scene as its camera sees it: the box, cut by clip planes, as triangles, the pixels it covers, the longest ray.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::Scene;
+use super::frustum::Frustum;
 use super::longest::longest_ray;
 use super::region::Region;
+use super::slices::{SliceSurface, Slices, Stack};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
-use crate::math::ray::{Lens, ViewRays};
+use crate::math::ray::ViewRays;
 
 /// A scene as seen by its camera.
 #[derive(Clone, Debug)]
@@ -19,58 +23,27 @@ pub struct View {
     pub back: Vec<[f32; 3]>,
     /// The pixels the box may cover; none where it is out of view.
     pub region: Region,
-    /// Samples on the ray that has most.
+    /// Samples on the ray that has most, a step from each other.
     pub longest_samples: u32,
+    /// What slice renderers draw; none for others.
+    pub slices: Option<Arc<Slices>>,
 }
-
-/// The view frustum is clipped this much wider than the picture, so that its sides never show; what is left
-/// stays within what every rasteriser handles.
-const GUARD: f64 = 2.0;
 
 impl View {
     /// # Errors
     /// When the camera is not one (see [`super::Camera::basis`]), or single precision has no numbers for the view.
     pub fn new(scene: &Scene) -> Result<Self> {
         let size = scene.settings.image.size;
-        let rays = scene.camera.rays(size)?;
-        let basis = scene.camera.basis()?;
-        let half = 0.5 * scene.field.extent();
-        let eye = scene.camera.eye;
-        let half_height = scene.camera.half_height();
-        let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
-
-        let near = HalfSpace { normal: basis.forward, distance: basis.forward.dot(eye) + rays.near };
-        // Rays enter by a plane where they come from the side that is cut off.
-        let enters = |plane: &HalfSpace| match rays.lens {
-            Lens::Perspective => plane.height(eye) < 0.0,
-            Lens::Orthographic => plane.normal.dot(basis.forward) > 0.0,
-        };
+        let frustum = Frustum::new(scene)?;
+        let rays = frustum.rays;
+        let enters = |plane: &HalfSpace| frustum.enters(plane);
         let cut = |solid: Polyhedron, plane: &HalfSpace| solid.clipped(*plane, Some(enters(plane)));
-        // What lies no farther to a side than this, in perspective at depth 1.
-        let within = |side: DVec3, reach: f64| match rays.lens {
-            Lens::Perspective => {
-                let normal = GUARD * reach * basis.forward - side;
-                HalfSpace { normal, distance: normal.dot(eye) }
-            }
-            Lens::Orthographic => HalfSpace { normal: -side, distance: -side.dot(eye) - GUARD * reach },
-        };
-        let solid = scene
-            .clip_planes()
-            .iter()
-            .fold(Polyhedron::cuboid(half, enters), cut)
-            .clipped(near, Some(true))
-            .clipped(within(basis.right, half_width), None)
-            .clipped(within(-basis.right, half_width), None)
-            .clipped(within(basis.up, half_height), None)
-            .clipped(within(-basis.up, half_height), None);
+        let half = 0.5 * scene.field.extent();
+        let solid = scene.clip_planes().iter().fold(Polyhedron::cuboid(half, enters), cut);
+        let solid = solid.clipped(frustum.near(), Some(true));
+        let solid = frustum.sides().into_iter().fold(solid, |solid, side| solid.clipped(side, None));
         let project = |front: bool| -> Vec<[f32; 3]> {
-            let clip = |p: DVec3| {
-                let arm = p - eye;
-                let (x, y) = (arm.dot(basis.right) / half_width, -arm.dot(basis.up) / half_height);
-                let w = if rays.parallel() { 1.0 } else { arm.dot(basis.forward) };
-                [x, y, w].map(|c| c as f32)
-            };
-            solid.triangles(front).into_iter().map(clip).collect()
+            solid.triangles(front).into_iter().map(|place| frustum.corner(place)).collect()
         };
         let (front, back) = (project(true), project(false));
         representable(scene, &rays, [&front, &back])?;
@@ -82,7 +55,23 @@ impl View {
             region => region,
         };
         let longest_samples = longest_samples(scene, &rays, region);
-        Ok(Self { size, rays, front, back, region, longest_samples })
+        Ok(Self { size, rays, front, back, region, longest_samples, slices: None })
+    }
+
+    /// The axis of the stack of 2D textures that slices are taken from; none where they are taken from the volume, or there are none.
+    pub fn stack_axis(&self) -> Option<usize> {
+        match self.slices.as_ref()?.surface {
+            SliceSurface::Axis(axis) => Some(axis),
+            SliceSurface::Depth | SliceSurface::Distance => None,
+        }
+    }
+
+    /// The same with slices, drawn front to back in passes of so many of them, or back to front.
+    ///
+    /// # Errors
+    /// As [`View::new`].
+    pub fn sliced(self, scene: &Scene, stack: Stack, of_pass: Option<u32>) -> Result<Self> {
+        Ok(Self { slices: Some(Arc::new(Slices::new(scene, stack, of_pass)?)), ..self })
     }
 }
 

@@ -7,6 +7,7 @@ mod planes;
 mod polygons;
 mod refraction;
 mod slice;
+mod slices;
 mod surface;
 
 pub use bundle::Bundle;
@@ -16,6 +17,7 @@ pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
 pub use refraction::index_pieces;
 pub use slice::Slice;
+pub use slices::Slices;
 pub use surface::{SurfaceLevel, light_rows, surface_levels};
 
 use bytemuck::{Pod, Zeroable};
@@ -153,6 +155,12 @@ pub fn rows(pieces: &[Piece], grey: bool) -> Vec<[f32; 4]> {
     };
     pieces.iter().flat_map(of).collect()
 }
+
+/// So many pieces are few: shaders look at all of them.
+pub const MOST_FEW_PIECES: usize = 16;
+
+/// Rows of the uniform buffer of few pieces.
+pub const FEW_ROWS: usize = 3 * MOST_FEW_PIECES;
 
 /// `AxisPiece` of `glsl/shared/preintegrated.glsl`.
 #[repr(C)]

@@ -36,7 +36,10 @@ fn visible(twin: &Twin, blocks: &Blocks, pixel: &mut Pixel, i: u32) -> bool {
     if !twin.scene.spans() {
         return twin.at_cell(pixel, i, |cell| blocks.visible(cell));
     }
-    let [front, back] = twin.span(pixel, i);
+    let [front, back] = match twin.slices {
+        Some(_) => [i, i + 1].map(|i| twin.place_of(pixel, i)),
+        None => twin.span(pixel, i).map(|steps| twin.position_at(pixel, steps)),
+    };
     let ray = pixel.clone();
     let (found, undecided) = twin.at_cell_of(pixel, front, |from| {
         let mut other = ray.clone();

@@ -14,20 +14,25 @@ pub fn layer_without_surface(twin: &Twin, pixel: &mut Pixel, number: u32) -> Eff
 }
 
 /// Blends the colour of a transparent layer under what is in front of it.
-pub fn layer(_: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
+pub fn layer(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
     let Some(surface) = pixel.layers.get(layer as usize) else { return Effect::Discarded };
-    pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
+    pixel.accumulated = twin.layer_blend().apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
 
 /// Blends the colour of the opaque surface under what is in front of it.
-pub fn opaque(_: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+pub fn opaque(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let Some(surface) = pixel.opaque else { return Effect::Discarded };
-    pixel.accumulated = Blend::Over.apply(pixel.accumulated, surface.color);
+    pixel.accumulated = twin.layer_blend().apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
 
 impl Twin<'_> {
+    /// How colours of layers are joined with what is drawn already.
+    fn layer_blend(&self) -> Blend {
+        if self.slices.is_some_and(|slices| slices.of_pass.is_none()) { Blend::InFront } else { Blend::Over }
+    }
+
     /// Where the part of the ray that is drawn begins and ends, in steps; nothing is between them where the ray has no such part.
     pub fn part(&self, pixel: &Pixel) -> [f64; 2] {
         let steps = self.steps(pixel);
@@ -46,6 +51,9 @@ impl Twin<'_> {
 
     /// The first sample of the part of the ray that is drawn, and one past its last.
     pub fn samples_of_part(&self, pixel: &Pixel) -> (u32, u32) {
+        if self.slices.is_some() {
+            return self.slices_of_part(pixel);
+        }
         let ([begin, end], all) = (self.part(pixel), self.sample_count(pixel));
         if begin >= end || all == 0 {
             return (0, 0);
@@ -85,6 +93,10 @@ impl Twin<'_> {
 
     /// Sees whether f32 can tell the samples of the part of the ray that is drawn.
     pub fn judge_cuts(&self, pixel: &mut Pixel) {
+        if self.slices.is_some() {
+            self.enter_slices(pixel);
+            return;
+        }
         if pixel.layers.is_empty() && pixel.opaque.is_none() && pixel.begin.is_none() {
             return;
         }

@@ -23,6 +23,7 @@ pub mod samples;
 pub mod section;
 pub mod segment;
 pub mod single_pass;
+pub mod slices;
 pub mod start;
 pub mod surface;
 pub mod termination;
@@ -34,6 +35,7 @@ use glam::DVec3;
 use crate::math::ray::ViewRays;
 use crate::projection::{Levels, Projection};
 use crate::scene::mesh::MOST_CLIPS;
+use crate::scene::slices::Slices;
 use crate::scene::{Light, Scene};
 use crate::structure::blocks::Blocks;
 use crate::structure::gradients::GradientTexels;
@@ -51,6 +53,8 @@ pub const SKIPPED: f64 = 0.5;
 pub struct Twin<'a> {
     pub scene: &'a Scene,
     pub rays: ViewRays,
+    /// What samples lie on, where they lie on slices.
+    pub slices: Option<&'a Slices>,
     /// N, main passes of the frame.
     pub passes: u32,
     pub distance: Option<&'a DistanceField>,
@@ -151,6 +155,28 @@ pub enum Effect {
     Discarded,
     /// It took a sample of non-zero opacity, or, where values are shown, one that changes the pixel.
     Contributed,
+    /// The same of many fragments of one pixel: how many pass, and how many of them took such a sample.
+    Several { fragments: u64, contributed: u64 },
+}
+
+impl Effect {
+    /// Fragments that pass.
+    pub fn fragments(self) -> u64 {
+        match self {
+            Self::Discarded => 0,
+            Self::Silent | Self::Contributed => 1,
+            Self::Several { fragments, .. } => fragments,
+        }
+    }
+
+    /// Fragments that took a sample which shows.
+    pub fn contributed(self) -> u64 {
+        match self {
+            Self::Silent | Self::Discarded => 0,
+            Self::Contributed => 1,
+            Self::Several { contributed, .. } => contributed,
+        }
+    }
 }
 
 /// The f64 form of a pass: one pixel, the main pass it belongs to.

@@ -67,11 +67,12 @@ impl Twin<'_> {
         let Some(bound) = distance.free(cell, octant_of(pixel.direction)) else { return [0; 2] };
         let [least, most] = self.steps_inside(pixel, i, cell, distance.grid.cell);
         let step = self.scene.settings.sampling.step;
+        let stride = step * self.stride_of(pixel);
         // What lies between the last free sample and the next one need not be free.
         let not_free = u32::from(self.scene.spans());
         [(least, 1.0 - WAY_ROUNDING), (most, 1.0 + WAY_ROUNDING)].map(|(steps, rounded)| {
             let inside = (steps * step).min(f64::from(FAR));
-            free_samples((inside + f64::from(bound)) * rounded, step) - not_free
+            free_samples((inside + f64::from(bound)) * rounded, stride) - not_free
         })
     }
 

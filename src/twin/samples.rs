@@ -67,12 +67,12 @@ impl Twin<'_> {
     /// What `look` says of the cell that sample `i` lies in; undecided where it says another thing of one beside it
     /// that f32 might take.
     pub fn at_cell<T: PartialEq>(&self, pixel: &mut Pixel, i: u32, look: impl Fn([usize; 3]) -> T) -> T {
-        self.at_cell_of(pixel, self.steps_to(i), look)
+        self.at_cell_of(pixel, self.place_of(pixel, i), look)
     }
 
-    /// The same for the cell `steps` from the entry point.
-    pub fn at_cell_of<T: PartialEq>(&self, pixel: &mut Pixel, steps: f64, look: impl Fn([usize; 3]) -> T) -> T {
-        let voxel = self.voxel(self.position_at(pixel, steps));
+    /// The same for the cell at these texture coordinates.
+    pub fn at_cell_of<T: PartialEq>(&self, pixel: &mut Pixel, place: DVec3, look: impl Fn([usize; 3]) -> T) -> T {
+        let voxel = self.voxel(place);
         let found = look(self.scene.field.cell_at(voxel));
         let near = |by: f64| self.scene.field.cell_at(voxel + DVec3::splat(by));
         let (low, high) = (near(-FACE_ROUNDING), near(FACE_ROUNDING));
@@ -87,7 +87,7 @@ impl Twin<'_> {
     /// infinite where it leaves the volume with it. The least and the most that f32 may find.
     pub fn steps_inside(&self, pixel: &Pixel, i: u32, cell: [usize; 3], side: usize) -> [f64; 2] {
         let field = &self.scene.field;
-        let place = self.voxel(self.sample_position(pixel, i)) - 0.5;
+        let place = self.voxel(self.place_of(pixel, i)) - 0.5;
         let stride = self.voxel(pixel.direction / field.extent() * self.step_length());
         let mut steps = [f64::INFINITY; 2];
         for axis in 0..3 {
@@ -122,7 +122,7 @@ impl Twin<'_> {
         let sampling = &self.scene.settings.sampling;
         let (first, end) = self.samples_of_part(pixel);
         let last = end.checked_sub(1)? / sampling.samples_per_pass;
-        let apart = self.scene.settings.layers.partial == PartialSegments::Apart;
+        let apart = self.scene.settings.layers.partial == PartialSegments::Apart && self.slices.is_none();
         (apart && first < end && self.part(pixel)[1] < self.steps(pixel) && last <= pass).then_some(last)
     }
 

@@ -26,7 +26,7 @@ impl Twin<'_> {
     }
 
     /// Premultiplied colour of sample `i`, that stands for so many steps.
-    fn shade_steps(&self, pixel: &mut Pixel, i: u32, steps: f64) -> [f64; 4] {
+    pub(super) fn shade_steps(&self, pixel: &mut Pixel, i: u32, steps: f64) -> [f64; 4] {
         let (transfer, sampling) = (&self.scene.transfer, &self.scene.settings.sampling);
         let voxel = self.voxel(self.sample_position(pixel, i));
         if self.in_hole(voxel) {
@@ -76,19 +76,23 @@ impl Twin<'_> {
 
     /// What sample `i` brings to its ray, where values are shown.
     fn value_sample(&self, values: &OfValues, pixel: &mut Pixel, i: u32) -> [f64; 4] {
-        let voxel = self.voxel(self.sample_position(pixel, i));
-        if self.in_hole(voxel) {
-            return self.no_sample();
-        }
         let sampling = &self.scene.settings.sampling;
         let all = match sampling.last {
             Last::Partial => self.steps(pixel),
             Last::Full | Last::None => f64::from(self.sample_count(pixel)),
         };
         let lengths = sampling.step / self.scene.transfer.reference;
-        let weight = SampleWeight { steps: self.extent_of_sample(pixel, i), all, lengths };
+        self.value_with(values, pixel, i, &SampleWeight { steps: self.extent_of_sample(pixel, i), all, lengths })
+    }
+
+    /// What sample `i` brings to its ray with that weight, where values are shown.
+    pub(super) fn value_with(&self, values: &OfValues, pixel: &mut Pixel, i: u32, weight: &SampleWeight) -> [f64; 4] {
+        let voxel = self.voxel(self.sample_position(pixel, i));
+        if self.in_hole(voxel) {
+            return self.no_sample();
+        }
         let value = self.value(pixel, voxel);
-        self.projection.grey((values.part)(value, &self.levels, &weight))
+        self.projection.grey((values.part)(value, &self.levels, weight))
     }
 
     /// Steps that sample `i` stands for.
@@ -102,7 +106,7 @@ impl Twin<'_> {
     }
 
     /// The scalar at `voxel`; undecided where f32 may see it on the other side of a jump.
-    fn value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
+    pub(super) fn value(&self, pixel: &mut Pixel, voxel: DVec3) -> f64 {
         let field = &self.scene.field;
         if self.scene.settings.sampling.filter == Filter::Nearest {
             return self.nearest_value(pixel, voxel);

@@ -6,8 +6,12 @@ use super::{Effect, Pixel, Twin};
 pub fn start(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let [mut value, ..] = twin.no_sample();
     if twin.levels.falls() {
-        pixel.undecided |= !twin.sample_count_decided(pixel);
-        if twin.sample_count(pixel) == 0 {
+        let (samples, decided) = match twin.slices {
+            Some(_) => twin.slices_met(pixel),
+            None => (twin.sample_count(pixel), twin.sample_count_decided(pixel)),
+        };
+        pixel.undecided |= !decided;
+        if samples == 0 {
             value = twin.levels.end;
         }
     }

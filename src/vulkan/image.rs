@@ -17,17 +17,27 @@ use crate::error::{Error, Result};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageInfo {
     pub name: String,
-    /// Texels; the last is 1 unless `volume`.
+    /// Texels; the last is 1 of a flat one, and the number of layers of one that has layers.
     pub extent: [u32; 3],
     pub format: vk::Format,
     pub usage: vk::ImageUsageFlags,
-    /// 3D rather than 2D.
-    pub volume: bool,
+    pub shape: ImageShape,
     /// Graphics and compute queue may read it at the same time, so that no family owns it.
     pub shared: bool,
 }
 
-/// An image of one level and one layer in device memory, with its view.
+/// What the sides of an image are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImageShape {
+    /// Two sides.
+    Flat,
+    /// Three sides, between whose texels a sampler interpolates alike.
+    Volume,
+    /// Two sides and layers, between which a sampler does not interpolate.
+    Layers,
+}
+
+/// An image of one level in device memory, with its view.
 pub struct Image {
     pub info: ImageInfo,
     pub(super) inner: Arc<ImageInner>,
@@ -46,13 +56,13 @@ impl Image {
     /// A size beyond the device's limits, a format it cannot use in this way, too little memory.
     pub fn new(device: &Arc<Device>, info: ImageInfo) -> Result<Self> {
         check_limits(device, &info)?;
-        let [width, height, depth] = info.extent;
+        let ([width, height, depth], layers) = sides(&info);
         let create = vk::ImageCreateInfo::default()
             .image_type(image_type(&info))
             .format(info.format)
             .extent(vk::Extent3D { width, height, depth })
             .mip_levels(1)
-            .array_layers(1)
+            .array_layers(layers)
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(info.usage);
@@ -132,7 +142,11 @@ unsafe fn bind(device: &Device, info: &ImageInfo, handle: vk::Image) -> Result<(
     })?;
     let create = vk::ImageViewCreateInfo::default()
         .image(handle)
-        .view_type(if info.volume { vk::ImageViewType::TYPE_3D } else { vk::ImageViewType::TYPE_2D })
+        .view_type(match info.shape {
+            ImageShape::Flat => vk::ImageViewType::TYPE_2D,
+            ImageShape::Volume => vk::ImageViewType::TYPE_3D,
+            ImageShape::Layers => vk::ImageViewType::TYPE_2D_ARRAY,
+        })
         .format(info.format)
         .subresource_range(whole(viewed(info)));
     // SAFETY: the memory is fresh and meets the requirements; the image is bound before its view is made.
@@ -151,13 +165,26 @@ unsafe fn bind(device: &Device, info: &ImageInfo, handle: vk::Image) -> Result<(
     }
 }
 
-/// The only level and layer.
+/// The only level, with all layers.
 pub(super) fn whole(aspect: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1)
+    let layers = vk::REMAINING_ARRAY_LAYERS;
+    vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(layers)
+}
+
+/// Texels along the sides of an image's layers, and how many there are of these.
+fn sides(info: &ImageInfo) -> ([u32; 3], u32) {
+    let [width, height, last] = info.extent;
+    match info.shape {
+        ImageShape::Flat | ImageShape::Volume => (info.extent, 1),
+        ImageShape::Layers => ([width, height, 1], last),
+    }
 }
 
 fn image_type(info: &ImageInfo) -> vk::ImageType {
-    if info.volume { vk::ImageType::TYPE_3D } else { vk::ImageType::TYPE_2D }
+    match info.shape {
+        ImageShape::Volume => vk::ImageType::TYPE_3D,
+        ImageShape::Flat | ImageShape::Layers => vk::ImageType::TYPE_2D,
+    }
 }
 
 fn packed_bytes(info: &ImageInfo) -> Option<u64> {
@@ -166,20 +193,21 @@ fn packed_bytes(info: &ImageInfo) -> Option<u64> {
 }
 
 fn check_limits(device: &Device, info: &ImageInfo) -> Result<()> {
-    let ImageInfo { name, extent, format, usage, volume, shared: _ } = info;
-    let [width, height, depth] = *extent;
-    if extent.contains(&0) || (!volume && depth != 1) || usage.is_empty() {
+    let ImageInfo { name, extent, format, usage, shape, shared: _ } = info;
+    let ([width, height, depth], layers) = sides(info);
+    if extent.contains(&0) || (*shape == ImageShape::Flat && depth != 1) || usage.is_empty() {
         return Err(misuse(name, format!("{extent:?} texels, usage {usage:?}: no such image")));
     }
     if packed_bytes(info).is_none() {
         return Err(misuse(name, format!("{extent:?} texels of {format:?} have no known size")));
     }
-    let size = format!("{width} x {height} x {depth} texels");
-    let (limit, remedy) = match volume {
-        true => (device.info.max_image_3d, "use a smaller volume, or a device with a higher limit"),
-        false => (device.info.max_image_2d, "use a smaller viewport, or a device with a higher limit"),
+    let size = format!("{width} x {height} x {} texels", extent[2]);
+    let (limit, remedy) = match shape {
+        ImageShape::Volume => (device.info.max_image_3d, "use a smaller volume, or a device with a higher limit"),
+        ImageShape::Flat => (device.info.max_image_2d, "use a smaller viewport, or a device with a higher limit"),
+        ImageShape::Layers => (device.info.max_image_2d, "use a smaller volume, or a device with a higher limit"),
     };
-    if extent.iter().any(|&side| side > limit) {
+    if [width, height, depth].iter().any(|&side| side > limit) {
         return Err(Error::device(name, format!("{size}, {} allows {limit} a side", device.info.name), remedy));
     }
     let limits = device.image_limits(*format, image_type(info), *usage).map_err(|code| match code {
@@ -191,6 +219,10 @@ fn check_limits(device: &Device, info: &ImageInfo) -> Result<()> {
         code => super::failure::failed("vkGetPhysicalDeviceImageFormatProperties", name, code),
     })?;
     let most = limits.max_extent;
+    if layers > limits.max_array_layers {
+        let problem = format!("{layers} layers of {format:?}, {} allows {}", device.info.name, limits.max_array_layers);
+        return Err(Error::device(name, problem, remedy));
+    }
     if width > most.width || height > most.height || depth > most.depth {
         let allowed = format!("{} x {} x {}", most.width, most.height, most.depth);
         let problem = format!("{size} of {format:?}, {} allows {allowed}", device.info.name);

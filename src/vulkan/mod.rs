@@ -46,7 +46,7 @@ pub use descriptor::{Bound, DescriptorSet};
 pub use device::Device;
 pub use features::DeviceUse;
 pub use format::{aspect, has_stencil, texel_bytes};
-pub use image::{Image, ImageInfo, Sampler};
+pub use image::{Image, ImageInfo, ImageShape, Sampler};
 pub use info::{DeviceInfo, DeviceKind, QueueFamily};
 pub use instance::Instance;
 pub use layout::Layout;

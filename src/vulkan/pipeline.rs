@@ -204,13 +204,14 @@ fn blends(device: &Device, info: &GraphicsPipelineInfo<'_>) -> Result<Vec<vk::Pi
             "choose another device",
         ));
     }
-    let target = vk::BlendFactor::ONE;
+    let one = vk::BlendFactor::ONE;
     // The greater and the lesser are found without factors.
-    let (source, operation) = match info.blend {
-        Blend::Replace | Blend::Add => (vk::BlendFactor::ONE, vk::BlendOp::ADD),
-        Blend::Over => (vk::BlendFactor::ONE_MINUS_DST_ALPHA, vk::BlendOp::ADD),
-        Blend::Max => (vk::BlendFactor::ONE, vk::BlendOp::MAX),
-        Blend::Min => (vk::BlendFactor::ONE, vk::BlendOp::MIN),
+    let (source, target, operation) = match info.blend {
+        Blend::Replace | Blend::Add => (one, one, vk::BlendOp::ADD),
+        Blend::Over => (vk::BlendFactor::ONE_MINUS_DST_ALPHA, one, vk::BlendOp::ADD),
+        Blend::InFront => (one, vk::BlendFactor::ONE_MINUS_SRC_ALPHA, vk::BlendOp::ADD),
+        Blend::Max => (one, one, vk::BlendOp::MAX),
+        Blend::Min => (one, one, vk::BlendOp::MIN),
     };
     let written = match info.fragment {
         Some(_) => vk::ColorComponentFlags::RGBA,

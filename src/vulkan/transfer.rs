@@ -5,7 +5,7 @@ use ash::vk;
 use super::buffer::Buffer;
 use super::commands::Commands;
 use super::format::{aspect, has_stencil, texel_bytes};
-use super::image::{Image, whole};
+use super::image::{Image, ImageShape, whole};
 use super::queue::Queue;
 use super::render_pass::Scope;
 
@@ -233,9 +233,14 @@ impl Commands {
         if !self.fits(buffer, region.buffer_offset, bytes) {
             return None;
         }
-        let [x, y, z] = region.image_offset.map(|offset| offset as i32);
+        let [x, y, z] = region.image_offset;
         let [width, height, depth] = region.extent;
-        let layers = vk::ImageSubresourceLayers::default().aspect_mask(aspect(image.info.format)).layer_count(1);
+        let layers = vk::ImageSubresourceLayers::default().aspect_mask(aspect(image.info.format));
+        let (layers, z, depth) = match image.info.shape {
+            ImageShape::Layers => (layers.base_array_layer(z).layer_count(depth), 0, 1),
+            ImageShape::Flat | ImageShape::Volume => (layers.layer_count(1), z, depth),
+        };
+        let [x, y, z] = [x, y, z].map(|offset| offset as i32);
         Some(
             vk::BufferImageCopy::default()
                 .buffer_offset(region.buffer_offset)

@@ -50,7 +50,10 @@ fn plans_name_the_effect() {
     let text = place.done("plan sub/a.toml --method single-pass --json -").text();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["scene"], "shells:12 with the effect tint, ramp");
-    assert!(json["steps"].as_array().unwrap().iter().any(|step| step["shader"] == "single_pass.frag:EFFECT"), "{json}");
+    assert!(
+        json["steps"].as_array().unwrap().iter().any(|step| step["shader"] == "single_pass.frag:EFFECT+FEW_PIECES"),
+        "{json}"
+    );
     assert!(json["texture"]["pixel_error"].is_number() || json["texture"]["pixel_error"].is_null());
     let help = place.done("render --help").text();
     assert!(help.contains("--effect <FILE>") && help.contains("vec4 effect(Sample here)"), "{help}");

@@ -105,7 +105,7 @@ pub fn other_half() -> bool {
 const SHARE: usize = 2;
 
 /// One in so many that a driver takes where others do more of everything.
-const LEAST_SHARE: usize = 6;
+const LEAST_SHARE: usize = 8;
 
 /// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every other one, by `turn` from
 /// the first or second on, and those that the other one leaves out; where other drivers do more of everything every sixth. One at

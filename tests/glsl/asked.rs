@@ -16,6 +16,7 @@ use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName};
+use depthleap::scene::slices::Stack;
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use rayon::prelude::*;
@@ -126,6 +127,10 @@ fn in_turn(method: &Method, turn: usize) -> bool {
     let traversal = [Traversal::FragmentLoop, Traversal::ComputeLoop][turn % 2];
     let of_blocks = (turn / 2).is_multiple_of(2);
     let leaps = method.loops() && method.looks_ahead();
+    // Slices of all stacks are one shader, but for the textures that they take values from.
+    if let Some(stack) = method.stack() {
+        return stack == [Stack::View, Stack::Objects, Stack::Shells][turn % 3];
+    }
     !leaps || method.traversal == traversal && method.skips_blocks() == of_blocks
 }
 

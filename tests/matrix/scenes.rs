@@ -8,7 +8,7 @@ use std::sync::Arc;
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
-use depthleap::projection::{AVERAGE, MIP, PROJECTIONS};
+use depthleap::projection::{AVERAGE, MINIP, MIP, PROJECTIONS};
 use depthleap::read;
 use depthleap::scene::backdrop::Pattern;
 use depthleap::scene::environment::Picture;
@@ -28,7 +28,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 75] = [
+const KINDS: [(&str, Change); 78] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -79,6 +79,16 @@ const KINDS: [(&str, Change); 75] = [
         s.clips = vec![plane([1.0, 0.3, -0.2, 0.1]), clip(0.7, Keep::Inside)];
         s.camera.height = Some(1.2);
     }),
+    ("least values in an orthographic view that a plane cuts", |s| {
+        (s.projection.kind, s.camera.height) = (MINIP.name(), Some(1.2));
+        s.clips = vec![plane([1.0, 0.3, -0.2, 0.1])];
+    }),
+    ("a transfer function of many points", |s| {
+        let point =
+            |i: u32| [f64::from(i) / 24.0, 0.04 * f64::from(i), 0.5, 0.2, if i.is_multiple_of(5) { 0.0 } else { 0.3 }];
+        s.transfer.points = Some((0..=24).map(point).collect());
+    }),
+    ("a slice for each texture of a stack", |s| s.method.between = false),
     ("an orthographic view of an iso-surface", |s| (s.surface.iso, s.camera.height) = (Some(90.0), Some(1.1))),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),

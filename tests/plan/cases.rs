@@ -115,6 +115,18 @@ pub fn cases() -> Vec<Case> {
         ("single-pass-block+compute", method::SINGLE_PASS_BLOCK_COMPUTE.name(), None, false),
         ("single-pass-omni+compute", method::SINGLE_PASS_OMNI_COMPUTE.name(), None, false),
         ("single-pass-directional+compute", method::SINGLE_PASS_DIRECTIONAL_COMPUTE.name(), None, false),
+        ("slices-2d", method::SLICES_2D.name(), None, false),
+        ("slices-2d+ftb", method::SLICES_2D_FTB.name(), form(Ztest, Fragdepth), false),
+        ("slices-2d-block+ftb", method::SLICES_2D_BLOCK.name(), form(Ztest, Fragdepth), false),
+        ("slices-2d-omni+ftb", method::SLICES_2D_OMNI.name(), form(Bounds, Fragdepth), false),
+        ("slices-3d", method::SLICES_3D.name(), None, false),
+        ("slices-3d+ftb", method::SLICES_3D_FTB.name(), form(Ztest, Fragdepth), false),
+        ("slices-3d-block+ftb", method::SLICES_3D_BLOCK.name(), form(Ztest, Fragdepth), false),
+        ("slices-3d-omni+ftb", method::SLICES_3D_OMNI.name(), form(Bounds, Fragdepth), false),
+        ("slices-shells", method::SLICES_SHELLS.name(), None, false),
+        ("slices-shells+ftb", method::SLICES_SHELLS_FTB.name(), form(Ztest, Fragdepth), false),
+        ("slices-shells-block+ftb", method::SLICES_SHELLS_BLOCK.name(), form(Ztest, Fragdepth), false),
+        ("slices-shells-omni+ftb", method::SLICES_SHELLS_OMNI.name(), form(Bounds, Fragdepth), false),
     ];
     let mut cases: Vec<Case> = rows
         .map(|(name, method, form, block_first)| {
@@ -135,6 +147,8 @@ pub fn cases() -> Vec<Case> {
         ("nn-omni+fused_ztest_copy_layers", method::NN_OMNI_FUSED.name(), form(Ztest, Mark::Copy)),
         ("single-pass_layers", method::SINGLE_PASS.name(), None),
         ("single-pass+compute_layers", method::SINGLE_PASS_COMPUTE.name(), None),
+        ("slices-3d_layers", method::SLICES_3D.name(), None),
+        ("slices-3d-omni+ftb_layers", method::SLICES_3D_OMNI.name(), form(Ztest, Mark::Copy)),
     ] {
         cases.push(Case { name, plan: layered(method, form) });
     }

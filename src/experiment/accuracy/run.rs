@@ -9,11 +9,13 @@ use super::{Accuracy, Curve, FORMAT, Point, SurfaceError, expected_order, fit, m
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
+use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::picture::{Picture, similarity};
 use crate::measure::record::Clock;
 use crate::measure::runner::{Checked, Effort, Runner, view_in_words};
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Measured, compare};
+use crate::method;
 use crate::projection;
 use crate::provenance::Provenance;
 use crate::read;
@@ -126,7 +128,13 @@ impl AccuracyJob {
         let mut scene = asked.scene.clone();
         way.apply(&mut scene.settings);
         let own_settings = scene.settings.clone();
-        let mut curves: Vec<Curve> = methods.iter().map(|name| curve(asked, way, &scene, *name)).collect();
+        // What is wrong with the scene's own way is an error when it is run; in other ways methods take their part.
+        let drawn = |name: &&MethodName| way == asked.own || takes(&scene, **name);
+        let mut curves: Vec<Curve> =
+            methods.iter().filter(drawn).map(|name| curve(asked, way, &scene, *name)).collect();
+        if curves.is_empty() {
+            return Ok(curves);
+        }
         let variants: Vec<MethodSettings> = curves.iter().map(|curve| curve.settings.method.clone()).collect();
         let mut runner = Runner::new(Some(checked), scene.clone(), String::new());
         for &step in &self.steps {
@@ -152,6 +160,13 @@ impl AccuracyJob {
 /// So many ways of sampling are run by every method: of a surface, which all of them find alike, the scene's own.
 fn for_all(scene: &Scene) -> usize {
     if scene.surface.is_some() { 1 } else { 3 }
+}
+
+/// Whether a method draws a scene.
+fn takes(scene: &Scene, name: MethodName) -> bool {
+    let mut scene = scene.clone();
+    scene.settings.method.name = name;
+    method::find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
 /// A curve of a scene that is sampled in some way, without points.
@@ -225,7 +240,10 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         ssim: similarity(&one.picture, truth, one.run.settings.image.background)?,
         ms,
         timed,
-        samples: one.run.fragments.main.saturating_mul(samples_per_pass.into()),
+        samples: match one.run.fragment_kind() {
+            Some(FragmentKind::Sample) => one.run.fragments.main,
+            _ => one.run.fragments.main.saturating_mul(samples_per_pass.into()),
+        },
         pareto: false,
         surface: None,
     })

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::math::opacity::corrected_opacity;
+use crate::method;
 use crate::read;
 use crate::scene::settings::{Filter, Last, MethodName, Settings, VolumeTexture};
 use crate::scene::{Scene, Volume};
@@ -61,6 +62,18 @@ const SIZE: [u32; 2] = [23, 19];
 pub const COLOR: [f64; 3] = [0.8, 0.6, 0.3];
 
 impl StabilityCase {
+    /// Whether it is for a method: one of its own where it names some, and one that takes its scene, unless that is to be refused.
+    pub fn is_for(&self, method: MethodName, scene: Option<&Scene>) -> bool {
+        let named = self.methods.is_empty() || self.methods.contains(&method);
+        let refused = matches!(self.expect, Expect::Refused(_));
+        let takes = |scene: &Scene| {
+            let mut scene = scene.clone();
+            scene.settings.method.name = method;
+            method::find(method).is_some_and(|row| (row.takes)(&scene).is_ok())
+        };
+        named && (refused || scene.is_none_or(takes))
+    }
+
     /// A built-in volume, interpolated exactly, with a short last sample and no early termination; looked at from above
     /// one of its corners.
     pub fn new(group: &'static str, name: impl Into<String>, builtin: &str) -> Self {

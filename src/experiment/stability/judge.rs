@@ -75,8 +75,8 @@ struct ExpectedPicture {
 /// # Errors
 /// When there is no rule for the case; what is wrong with a picture is an outcome.
 pub fn judge(case: &StabilityCase, methods: &[MethodName], integrator: &mut dyn Integrator) -> Result<Vec<Outcome>> {
-    let wanted = |method: &&MethodName| case.methods.is_empty() || case.methods.contains(method);
     let scene = case.scene();
+    let wanted = |method: &&MethodName| case.is_for(**method, scene.as_ref().ok());
     integrator.begin();
     let mut outcomes = Vec::new();
     // By the method with the same samples that skips nothing.

@@ -61,6 +61,13 @@ section! {
     )]
     planner: bool = true;
 
+    /// slices-2d: a slice for each step, between two textures of the stack, else one for each texture
+    #[arg(
+        long = "no-between", num_args = 0, default_missing_value = "false",
+        help = "slices-2d: a slice for each texture of the stack, none between them, whatever --step says"
+    )]
+    between: bool = true;
+
     /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     lookups: u32 = 1, within Limits::from_to(1.0, 1024.0, "a number {}");

@@ -6,7 +6,7 @@ use depthleap::vulkan::Device;
 
 use super::SMALL;
 use super::program::Place;
-use crate::harness::{Need, Test, test};
+use crate::harness::{Need, Test, share, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
@@ -64,6 +64,9 @@ fn broken(_: &Arc<Device>) {
     }
 }
 
+/// Loops, of which drivers share what takes a program long to begin.
+const LOOPS: [&str; 2] = ["single-pass", "single-pass+compute"];
+
 /// Lavapipe ends loops itself after some ten thousand turns, all loops of a shader together; other drivers go on.
 fn endless(_: &Arc<Device>) {
     let place = Place::new();
@@ -77,7 +80,7 @@ fn endless(_: &Arc<Device>) {
                     return vec4(here.color.rgb, sum);\n\
                 }";
     place.file("endless.glsl", text);
-    for method in ["single-pass", "single-pass+compute"] {
+    for method in share(LOOPS, 0) {
         let arguments = format!("render {SMALL} --method {method} --effect endless.glsl --effect-limit 1 -o a.png");
         let parts = ["frame: did not end within 1 s", "the last step begun", "endless.glsl", "--effect-limit"];
         let ended = place.run(&arguments);
@@ -101,7 +104,7 @@ fn beyond(_: &Arc<Device>) {
                     return vec4(here.color.rgb, sum == -12345.0 ? 0.0 : here.color.a);\n\
                 }";
     place.file("beyond.glsl", text);
-    for method in ["single-pass", "single-pass+compute"] {
+    for method in share(LOOPS, 0) {
         place.done(&format!("render {SMALL} --validate --method {method} --effect beyond.glsl -o a.npy"));
         place.done(&format!("render {SMALL} --method {method} -o b.npy"));
         assert_eq!(place.read("a.npy"), place.read("b.npy"), "{method}");

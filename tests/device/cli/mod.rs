@@ -21,7 +21,7 @@ const SMALL: &str = "builtin:shells:24 --azimuth 31 --elevation 17 --viewport 24
 
 pub fn tests() -> Vec<Test> {
     let mut tests = vec![
-        test("volume beyond the device's limit is refused", volume_beyond_the_limit),
+        test("volume beyond the device's limit is refused", volume_beyond_the_limit).needs(Need::Thoroughness),
         test("clip volume beyond the device's limit is refused", clip_volume_beyond_the_limit),
         test("viewport beyond the device's limit is refused", viewport_beyond_the_limit),
         test("unknown device is refused with those there are", unknown_device),

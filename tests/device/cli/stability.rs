@@ -63,7 +63,8 @@ fn cases(device: &Device, text: &str, methods: &[MethodName]) {
     let names: Vec<(String, String)> = cases.iter().map(|c| (c.group.to_owned(), c.name.clone())).collect();
     assert_eq!(found.cases.iter().map(|c| (c.group.clone(), c.name.clone())).collect::<Vec<_>>(), names);
     for (case, asked) in found.cases.iter().zip(&cases) {
-        let of_case = |method: &&MethodName| asked.methods.is_empty() || asked.methods.contains(method);
+        let scene = asked.scene().ok();
+        let of_case = |method: &&MethodName| asked.is_for(**method, scene.as_ref());
         assert_eq!(case.outcomes.len(), methods.iter().filter(of_case).count(), "{}", case.name);
         assert!(
             case.outcomes.iter().all(|o| o.verdict != StabilityVerdict::Wrong),

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bytemuck::Pod;
 use depthleap::shared::Frame;
 use depthleap::vulkan::{
-    Bound, Buffer, BufferInfo, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place,
-    Scope, vk,
+    Bound, Buffer, BufferInfo, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo,
+    ImageShape, Place, Scope, vk,
 };
 
 use crate::shader::shader;
@@ -74,7 +74,14 @@ fn run(device: &Arc<Device>, name: &str, record: impl FnOnce(&mut Commands)) {
 /// An image of f32 components, to be read by compute shaders.
 pub fn image(device: &Arc<Device>, name: &str, extent: [u32; 3], format: vk::Format, values: &[f32]) -> Image {
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-    let info = ImageInfo { name: name.to_owned(), extent, format, usage, volume: extent[2] > 1, shared: false };
+    let info = ImageInfo {
+        name: name.to_owned(),
+        extent,
+        format,
+        usage,
+        shape: if extent[2] > 1 { ImageShape::Volume } else { ImageShape::Flat },
+        shared: false,
+    };
     let image = Image::new(device, info).unwrap();
     let bytes: &[u8] = bytemuck::cast_slice(values);
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;

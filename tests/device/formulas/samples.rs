@@ -108,6 +108,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
     Twin {
         scene,
         rays: scene.camera.rays([ROW, ROWS]).unwrap(),
+        slices: None,
         passes: 1,
         distance: None,
         blocks: None,

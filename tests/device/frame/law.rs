@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use depthleap::frame::Verdict;
-use depthleap::method::{self, METHODS, SINGLE_PASS, SINGLE_PASS_COMPUTE};
+use depthleap::method::{
+    self, METHODS, SINGLE_PASS, SINGLE_PASS_COMPUTE, SLICES_2D_FTB, SLICES_3D_FTB, SLICES_SHELLS_FTB,
+};
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
@@ -15,7 +17,7 @@ use depthleap::scene::settings::{
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
-use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, scene, seen};
+use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, right_forms, scene, seen};
 use crate::harness::{Need, Test, least, other_half, share, some_forms, test};
 
 type Change = fn(&mut Settings);
@@ -160,16 +162,31 @@ fn law(device: &Arc<Device>, scene: &Scene, number: usize) {
             let name = format!("{}, {turn}, {}, {}", method.name, form.map_or_else(String::new, Form::name), view.0);
             assert_eq!(differs, 0, "{name}: {differs} pixels are not those of rc-ert");
         }
-        leaps(&mut stage, &scene, [&SINGLE_PASS, &SINGLE_PASS_COMPUTE][(i + number) % 2], change);
+        let rules: [&Method; 5] =
+            [&SINGLE_PASS, &SLICES_3D_FTB, &SINGLE_PASS_COMPUTE, &SLICES_2D_FTB, &SLICES_SHELLS_FTB];
+        let rule = rules[(i + number) % rules.len()];
+        let mut named = by(&scene, rule.name());
+        change(&mut named.settings);
+        if (rule.takes)(&named).is_ok() {
+            leaps(device, &mut stage, &scene, rule, change, i + number);
+        }
     }
 }
 
-/// Loops that leap have the picture of the one that does not, with one way to look ahead.
-fn leaps(stage: &mut Stage, scene: &Scene, rule: &'static Method, change: fn(&mut Settings)) {
+/// Loops that leap, and slices that skip, have the picture of the method that does not, with one way to look ahead.
+fn leaps(
+    device: &Arc<Device>,
+    stage: &mut Stage,
+    scene: &Scene,
+    rule: &'static Method,
+    change: fn(&mut Settings),
+    turn: usize,
+) {
     let mut picture = |method: &Method| {
         let mut scene = by(scene, method.name());
         change(&mut scene.settings);
-        stage.shoot(&scene, None).picture
+        let forms = right_forms(device, method.name());
+        stage.shoot(&scene, forms[turn % forms.len()]).picture
     };
     let of_rule = picture(rule);
     for method in METHODS.into_iter().filter(|method| method.looks_ahead() && method.unskipped().name == rule.name) {

@@ -1,8 +1,8 @@
 //! The matrix: every method on every scene of `tests/matrix/scenes.rs`, in every form on one or another. Whatever is in its tables is in
 //! it: nothing here names a method, a form or a feature.
 //!
-//! The forms of a method take turns, so that a scene has every third one and three scenes on end have all of them; so do loops, whose
-//! shaders take most of the time. `DEPTHLEAP_ALL_FORMS` draws every scene in every form by every loop.
+//! The forms of a method take turns, so that a scene has every third one and three scenes on end have all of them; so do stacks of
+//! slices, and loops, whose shaders take most of the time. `DEPTHLEAP_ALL_FORMS` draws every scene in every form by every loop.
 //!
 //! Of each frame: it runs without a message of the validation layer (the harness sees to that); it is its f64 twin's;
 //! methods that end rays have one picture to the bit, those that end none have another; the fragments of a method are the
@@ -21,7 +21,7 @@ use depthleap::vulkan::{Device, vk};
 
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
 use super::matrix_scenes;
-use super::scenes::{Shot, Stage, checked, forms, forms_in_turn, loops_in_turn, right_forms};
+use super::scenes::{Shot, Stage, checked, forms, forms_in_turn, in_turn, right_forms};
 use crate::harness::{Test, all_forms, least, other_half, share, some_forms, test};
 
 /// Formats of the depth buffer, in which sections are the same. The first is that of every scene.
@@ -79,7 +79,8 @@ fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], num
         let mut rules = BTreeMap::new();
         let methods = matrix_scenes::methods(&scene);
         let every = all_forms() || depths.len() > 1;
-        let here = |method: &&Method| every || !method.loops() || loops_in_turn(method, number + i);
+        let whole = |method: &Method| every && (all_forms() || method.stack().is_none());
+        let here = |method: &&Method| whole(method) || in_turn(method, number + i);
         for (turn, method) in share(methods.filter(here), number).into_iter().enumerate() {
             let rule: &Shot = rules.entry(method.unskipped().name).or_insert_with(|| runs.rule(&scene, method));
             assert!(rule.picture.iter().any(|pixel| pixel[3] > 0.0), "{view}: nothing shows");

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use depthleap::experiment::orbit as around;
 use depthleap::measure::runner::{Checked, Runner};
 use depthleap::method::{self, METHODS};
-use depthleap::part::rows::Method;
+use depthleap::part::rows::{Method, Traversal};
 use depthleap::scene::settings::{Distance, MethodSettings};
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
@@ -56,7 +56,7 @@ const FUSED: usize = 4;
 fn methods() -> impl Iterator<Item = (&'static Method, Distance)> {
     METHODS
         .into_iter()
-        .filter(|method| !method.loops())
+        .filter(|method| method.traversal == Traversal::Passes)
         .filter_map(|method| method.distance().map(|distance| (method, distance)))
 }
 

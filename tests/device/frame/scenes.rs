@@ -11,6 +11,7 @@ use depthleap::part::rows::{Ahead, Method, Traversal};
 use depthleap::plan::{self, Choice, Plan};
 use depthleap::read;
 use depthleap::scene::settings::{Cull, Distance, Filter, MethodName, Settings, VolumeTexture};
+use depthleap::scene::slices::Stack;
 use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 
@@ -130,7 +131,7 @@ fn number_of(scene: &Scene) -> usize {
     (hash >> 8) as usize
 }
 
-/// Methods of a device, the first of those that differ in no more than the distances they read; of loops, in no more than what they
+/// Ray casters of a device, the first of those that differ in no more than the distances they read; of loops, in no more than what they
 /// leap with.
 pub fn shapes() -> Vec<&'static Method> {
     let shape = |method: &Method| {
@@ -138,7 +139,7 @@ pub fn shapes() -> Vec<&'static Method> {
         (method.ends_rays, ahead, method.fused, method.traversal)
     };
     let mut shapes: Vec<&Method> = Vec::new();
-    for method in METHODS.into_iter().filter(|method| method.on_device) {
+    for method in METHODS.into_iter().filter(|method| method.on_device && method.stack().is_none()) {
         let leaps = method.loops() && method.looks_ahead();
         if !leaps && shapes.iter().all(|one| shape(one) != shape(method)) {
             shapes.push(method);
@@ -159,9 +160,24 @@ pub fn loops_in_turn(method: &Method, turn: usize) -> bool {
     method.traversal == kind && [Ahead::Nothing, leaps].contains(&method.ahead)
 }
 
+/// Whether a method is one of those that a scene is drawn by in its turn: every ray caster of several passes, loops as
+/// [`loops_in_turn`], and of slices one stack, back to front, front to back, and with one way to skip.
+pub fn in_turn(method: &Method, turn: usize) -> bool {
+    let ahead = if (turn / STACKS.len()).is_multiple_of(2) { Ahead::Blocks } else { Ahead::Distances(Distance::Omni) };
+    match method.traversal {
+        Traversal::Passes => true,
+        Traversal::FragmentLoop | Traversal::ComputeLoop => loops_in_turn(method, turn),
+        Traversal::Slices(stack) => {
+            stack == STACKS[turn % STACKS.len()] && [Ahead::Nothing, ahead].contains(&method.ahead)
+        }
+    }
+}
+
+const STACKS: [Stack; 3] = [Stack::View, Stack::Objects, Stack::Shells];
+
 /// Methods whose pictures are that of `rc-ert`, bit for bit.
 pub fn lawful() -> impl Iterator<Item = &'static Method> {
-    METHODS.into_iter().filter(|method| method.under_the_law() && !method.loops())
+    METHODS.into_iter().filter(|method| method.under_the_law() && method.traversal == Traversal::Passes)
 }
 
 /// A view by its name: eye and target.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use depthleap::glsl;
 use depthleap::vulkan::{
-    Bound, Buffer, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place, Sampler, Scope,
-    ShaderModule, vk,
+    Bound, Buffer, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, ImageShape, Place, Sampler,
+    Scope, ShaderModule, vk,
 };
 
 use super::canvas::Canvas;
@@ -43,9 +43,11 @@ fn bound(device: &Arc<Device>, pipeline: &ComputePipeline, numbers: &Buffer) -> 
 fn texel(device: &Arc<Device>, name: &str, value: f32) -> Image {
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
     let (format, extent) = (vk::Format::R32_SFLOAT, [1; 3]);
-    let image =
-        Image::new(device, ImageInfo { name: name.to_owned(), extent, format, usage, volume: false, shared: false })
-            .unwrap();
+    let image = Image::new(
+        device,
+        ImageInfo { name: name.to_owned(), extent, format, usage, shape: ImageShape::Flat, shared: false },
+    )
+    .unwrap();
     let bytes = uploaded(device, "texel", &value.to_ne_bytes());
     let (to, read) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     run(device, "texel", |commands| {

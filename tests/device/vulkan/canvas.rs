@@ -5,8 +5,8 @@ use std::sync::Arc;
 use depthleap::glsl;
 use depthleap::vulkan::{
     Attachment, Blend, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DepthState, DescriptorSet, Device,
-    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, Place, RenderPass, RenderPassInfo, Role,
-    Scope, ShaderModule, vk,
+    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, ImageShape, Place, RenderPass,
+    RenderPassInfo, Role, Scope, ShaderModule, vk,
 };
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, run, uploaded, words};
@@ -87,7 +87,7 @@ impl Canvas {
                 extent: [width, height, 1],
                 format,
                 usage: usage | copied,
-                volume: false,
+                shape: ImageShape::Flat,
                 shared: false,
             };
             Image::new(device, info).unwrap()

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use depthleap::vulkan::{Buffer, BufferInfo, CopyRegion, Device, Image, ImageInfo, Place, Scope, texel_bytes, vk};
+use depthleap::vulkan::{
+    Buffer, BufferInfo, CopyRegion, Device, Image, ImageInfo, ImageShape, Place, Scope, texel_bytes, vk,
+};
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, misuse, refused, run, uploaded};
 use crate::harness::{Test, tests};
@@ -83,8 +85,8 @@ fn new_image(
     format: vk::Format,
     usage: vk::ImageUsageFlags,
 ) -> depthleap::Result<Image> {
-    let volume = extent[2] > 1;
-    Image::new(device, ImageInfo { name: "wanted".to_owned(), extent, format, usage, volume, shared: false })
+    let shape = if extent[2] > 1 { ImageShape::Volume } else { ImageShape::Flat };
+    Image::new(device, ImageInfo { name: "wanted".to_owned(), extent, format, usage, shape, shared: false })
 }
 
 /// Copied, and sampled, since an image that only is copied can have no view.
@@ -151,8 +153,14 @@ fn image_without_texels_is_refused(device: &Arc<Device>) {
     let format = vk::Format::R8_UNORM;
     refused(new_image(device, [4, 0, 1], format, copied()), &["wanted", "[4, 0, 1] texels"]);
     refused(new_image(device, [4, 4, 1], format, vk::ImageUsageFlags::empty()), &["wanted", "usage"]);
-    let flat =
-        ImageInfo { name: "flat".to_owned(), extent: [4, 4, 2], format, usage: copied(), volume: false, shared: false };
+    let flat = ImageInfo {
+        name: "flat".to_owned(),
+        extent: [4, 4, 2],
+        format,
+        usage: copied(),
+        shape: ImageShape::Flat,
+        shared: false,
+    };
     refused(Image::new(device, flat), &["flat", "[4, 4, 2] texels"]);
 }
 

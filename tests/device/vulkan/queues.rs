@@ -10,8 +10,8 @@ use depthleap::shared::Slice;
 use depthleap::structure::grid::Grid;
 use depthleap::structure::ranges;
 use depthleap::vulkan::{
-    Bound, Buffer, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, Place, Queue,
-    Recorded, Sampler, Scope, ShaderModule, vk,
+    Bound, Buffer, Commands, ComputePipeline, CopyRegion, DescriptorSet, Device, Image, ImageInfo, ImageShape, Place,
+    Queue, Recorded, Sampler, Scope, ShaderModule, vk,
 };
 
 use super::kit::{COMPUTE, COPY_READ, COPY_WRITE, buffer, uploaded, words};
@@ -134,7 +134,7 @@ fn volume_goes_to_the_compute_queue_and_ranges_come_back(_: &Arc<Device>) {
                 extent: field.dims().map(|n| n as u32),
                 format: vk::Format::R32_SFLOAT,
                 usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-                volume: true,
+                shape: ImageShape::Volume,
                 shared: false,
             },
         )

@@ -1,0 +1,51 @@
+//! What a fragment of a method is: counts of one kind say nothing beside those of another.
+
+use crate::method;
+use crate::part::rows::Traversal;
+
+/// What a main fragment stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FragmentKind {
+    /// A segment of a ray: M samples.
+    Segment,
+    /// A whole ray.
+    Ray,
+    /// A pixel of a compute shader's targets, with the whole ray where it has one.
+    Pixel,
+    /// A single sample.
+    Sample,
+}
+
+impl FragmentKind {
+    /// That of a method, by its name; none where it runs on no device.
+    pub fn of(method: &str) -> Option<Self> {
+        let row = method::METHODS.iter().find(|row| row.name == method && row.on_device)?;
+        Some(match row.traversal {
+            Traversal::Passes => Self::Segment,
+            Traversal::FragmentLoop => Self::Ray,
+            Traversal::ComputeLoop => Self::Pixel,
+            Traversal::Slices(_) => Self::Sample,
+        })
+    }
+
+    /// What its counts are, where they are not those of segments.
+    pub fn words(self) -> Option<&'static str> {
+        match self {
+            Self::Segment => None,
+            Self::Ray => Some("a fragment is a ray: its loop takes all samples of it"),
+            Self::Pixel => {
+                Some("fragments are invocations of a compute shader, one for each pixel that the box may cover")
+            }
+            Self::Sample => Some("a fragment is a sample: it has one on each slice"),
+        }
+    }
+
+    /// Why its counts are not held against those of segments; none of those.
+    pub fn apart(self) -> Option<&'static str> {
+        match self {
+            Self::Segment => None,
+            Self::Ray | Self::Pixel => Some("a fragment is a ray here, not a segment of one"),
+            Self::Sample => Some("a fragment is a sample here, not a segment of several"),
+        }
+    }
+}

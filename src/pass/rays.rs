@@ -1,0 +1,27 @@
+//! What passes that decide about rays know them by: ENTRY and DIR, or where slices lie.
+
+use super::slices;
+use crate::feature;
+use crate::part::Draw;
+use crate::part::access::{Access, Usage};
+use crate::part::rows::{Context, Hook};
+use crate::resource;
+
+/// Lets a draw find the ray of its pixel.
+pub fn find(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
+    accesses.extend(context.method.stack().is_none().then(|| Usage::Sampled.of(resource::ENTRY)));
+    find_length(context, draw, accesses);
+}
+
+/// Lets a draw find how many samples the ray of its pixel takes.
+pub fn find_length(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
+    if context.method.stack().is_none() {
+        accesses.push(Usage::Sampled.of(resource::DIRECTION));
+        return;
+    }
+    accesses.push(Usage::Sampled.of(resource::SLICES));
+    accesses.extend(feature::reads(context, Hook::Interval));
+    draw.define(["SLICES"]);
+    draw.define(feature::defines(context, Hook::Interval));
+    draw.specialize([slices::surface(context)]);
+}

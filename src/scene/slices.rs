@@ -1,0 +1,333 @@
+//! Slices: planes or spheres that rays are sampled on, and their polygons [Thesis §3.4].
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use glam::DVec3;
+
+use super::Scene;
+use super::frustum::Frustum;
+use crate::error::Result;
+use crate::math::polyhedron::{HalfSpace, Polyhedron};
+use crate::math::ray::{Lens, ViewRay, ViewRays};
+
+/// How slices lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stack {
+    /// Across that axis of the volume which is nearest to the view direction [Thesis §3.4.1].
+    Objects,
+    /// Across the view direction [Thesis §3.4.2].
+    View,
+    /// Spheres about the eye, between which all rays have the same way to go.
+    Shells,
+}
+
+/// The surfaces on which all slices lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SliceSurface {
+    /// Planes across an axis of the volume, at its coordinates.
+    Axis(usize),
+    /// Planes at depths in front of the eye.
+    Depth,
+    /// Spheres at distances from the eye.
+    Distance,
+}
+
+/// A slice reaches so far beyond the volume, in its sides and, at clip planes and the near plane, in volume units: samples on a face of the box are there on
+/// every device, whatever rounding does to them.
+pub const SLACK: f64 = 1.0 / (1 << 16) as f64;
+
+/// Polygons are wider than what they show by so many pixels, so that no rasteriser misses a pixel; shaders drop the rest.
+const MARGIN: f64 = 2.0;
+
+/// Slices at the most; more are refused.
+pub const MOST: u32 = 1 << 17;
+
+/// Slices of a view, numbered from the eye on.
+#[derive(Clone, Debug)]
+pub struct Slices {
+    pub surface: SliceSurface,
+    /// Where slice 0 lies, by its surface: for rays that go up along the axis, and for those that go down; the same for both of the
+    /// others.
+    pub first: [f64; 2],
+    /// From slice to slice, volume units.
+    pub spacing: f64,
+    pub count: u32,
+    /// Slices of a pass; all of them are drawn back to front where there is one pass alone.
+    pub of_pass: Option<u32>,
+    /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
+    polygons: OnceLock<SlicePolygons>,
+}
+
+/// What shows of slices.
+#[derive(Clone, Debug, Default)]
+pub struct SlicePolygons {
+    /// Clip coordinates x, y and w of the corners of triangles, three each, with the number of their slice; in the order of drawing.
+    pub corners: Vec<[f32; 4]>,
+    /// Where the corners of each slice begin, and where those of the last one end, by the place of the slice in that order.
+    begins: Vec<u32>,
+}
+
+impl SlicePolygons {
+    fn new(scene: &Scene, slices: &Slices) -> Result<Self> {
+        let cutter = Cutter::new(scene)?;
+        let mut polygons = Self { corners: Vec::new(), begins: vec![0] };
+        for place in 0..slices.count {
+            let slice = if slices.of_pass.is_some() { place } else { slices.count - 1 - place };
+            let triangles = cutter.triangles(slices, slice);
+            polygons.corners.extend(triangles.into_iter().map(|corner| {
+                let [x, y, w] = cutter.frustum.corner(corner);
+                [x, y, w, slice as f32]
+            }));
+            polygons.begins.push(polygons.corners.len() as u32);
+        }
+        Ok(polygons)
+    }
+}
+
+impl Slices {
+    /// Slices of a scene a step apart, drawn front to back in passes of so many of them, or back to front.
+    ///
+    /// # Errors
+    /// When the camera is not one (see [`super::Camera::basis`]).
+    pub fn new(scene: &Scene, stack: Stack, of_pass: Option<u32>) -> Result<Self> {
+        Ok(Self::placed(scene, &Frustum::new(scene)?, stack, of_pass))
+    }
+
+    fn placed(scene: &Scene, frustum: &Frustum, stack: Stack, of_pass: Option<u32>) -> Self {
+        let sampling = &scene.settings.sampling;
+        let half = 0.5 * scene.field.extent();
+        let rays = &frustum.rays;
+        let surface = match stack {
+            Stack::Objects => SliceSurface::Axis(steepest(frustum.basis.forward)),
+            Stack::Shells if !rays.parallel() => SliceSurface::Distance,
+            Stack::View | Stack::Shells => SliceSurface::Depth,
+        };
+        let (spacing, offset) = match surface {
+            // At the textures, each across voxels' centres.
+            SliceSurface::Axis(axis) if !scene.settings.method.between => (scene.field.voxel()[axis], 0.5),
+            _ => (sampling.step * scene.field.finest(), sampling.offset.steps()),
+        };
+        let offset = offset * spacing;
+        let counted = |length: f64| ((length - offset) / spacing).ceil().max(0.0);
+        let (first, count) = match surface {
+            SliceSurface::Depth => {
+                let nearest = rays.nearest(-half, half);
+                ([nearest + offset; 2], counted(rays.deepest(-half, half) - nearest))
+            }
+            SliceSurface::Distance => {
+                let arm = rays.origin.abs();
+                // All rays have come beyond the near plane there.
+                let near = rays.near * frustum.longest_direction();
+                let nearest = (arm - half).max(DVec3::ZERO).length().max(near);
+                ([nearest + offset; 2], counted((arm + half).length() - nearest))
+            }
+            SliceSurface::Axis(axis) => {
+                // Those that the eye has passed are left out, on both sides.
+                let all = counted(2.0 * half[axis]);
+                let passed = |way: f64| if rays.parallel() { 0.0 } else { counted(way).min(all) };
+                let [up, down] = [rays.origin[axis] + half[axis], half[axis] - rays.origin[axis]].map(passed);
+                let first = [-half[axis] + offset + up * spacing, half[axis] - offset - down * spacing];
+                (first, all - up.min(down))
+            }
+        };
+        let count = count.min(f64::from(u32::MAX)) as u32;
+        Self { surface, first, spacing, count, of_pass, polygons: OnceLock::new() }
+    }
+
+    /// What shows of them in a scene, which is the one that they were made for; nothing where its camera is not one.
+    pub fn polygons(&self, scene: &Scene) -> &SlicePolygons {
+        self.polygons.get_or_init(|| SlicePolygons::new(scene, self).unwrap_or_default())
+    }
+
+    /// The corners that are drawn in a pass.
+    pub fn range(&self, scene: &Scene, pass: u32) -> Range<u32> {
+        let begins = &self.polygons(scene).begins;
+        let begin = |slice: u32| begins.get(slice.min(self.count) as usize).copied().unwrap_or_default();
+        match self.of_pass {
+            None => 0..begin(self.count),
+            Some(slices) => begin(pass.saturating_mul(slices))..begin((pass + 1).saturating_mul(slices)),
+        }
+    }
+
+    /// The slices of a pass, in the order of drawing.
+    pub fn in_pass(&self, pass: u32) -> Box<dyn Iterator<Item = u32>> {
+        match self.of_pass {
+            None => Box::new((0..self.count).rev()),
+            Some(slices) => {
+                let end = |pass: u32| pass.saturating_mul(slices).min(self.count);
+                Box::new(end(pass)..end(pass + 1))
+            }
+        }
+    }
+
+    /// The depth at which a ray meets a slice; not a number where it never does.
+    pub fn depth(&self, ray: &ViewRay, slice: u32) -> f64 {
+        let by = f64::from(slice) * self.spacing;
+        match self.surface {
+            SliceSurface::Depth => self.first[0] + by,
+            SliceSurface::Distance => (self.first[0] + by) / ray.direction.length(),
+            SliceSurface::Axis(axis) => {
+                let up = ray.direction[axis] > 0.0;
+                let at = if up { self.first[0] + by } else { self.first[1] - by };
+                (at - ray.origin[axis]) / ray.direction[axis]
+            }
+        }
+    }
+
+    /// The number, with a fraction, that a slice at a depth of the ray would have; not a number where the ray meets none.
+    pub fn number(&self, ray: &ViewRay, depth: f64) -> f64 {
+        match self.surface {
+            SliceSurface::Depth => (depth - self.first[0]) / self.spacing,
+            SliceSurface::Distance => (depth * ray.direction.length() - self.first[0]) / self.spacing,
+            SliceSurface::Axis(axis) if ray.direction[axis] == 0.0 => f64::NAN,
+            SliceSurface::Axis(axis) => {
+                let at = ray.origin[axis] + depth * ray.direction[axis];
+                let way = if ray.direction[axis] > 0.0 { at - self.first[0] } else { self.first[1] - at };
+                way / self.spacing
+            }
+        }
+    }
+
+    /// From slice to slice along a ray, volume units.
+    pub fn stride(&self, ray: &ViewRay) -> f64 {
+        let length = ray.direction.length();
+        match self.surface {
+            SliceSurface::Depth => self.spacing * length,
+            SliceSurface::Distance => self.spacing,
+            SliceSurface::Axis(axis) => self.spacing * length / ray.direction[axis].abs(),
+        }
+    }
+
+    /// From slice to slice along the ray that goes farthest between them, in spacings; infinite where one never meets the next slice.
+    pub fn longest_stride(&self, rays: &ViewRays, size: [u32; 2]) -> f64 {
+        let corners = [[0, 0], [0, 1], [1, 0], [1, 1]].map(|corner: [u32; 2]| {
+            let [column, row] = [0, 1].map(|axis| f64::from(corner[axis] * size[axis]));
+            rays.through(column, row)
+        });
+        // Between the corners an axis may lie that no ray of theirs goes along.
+        let along = |ray: &ViewRay, axis: usize| ray.direction[axis] * corners[0].direction[axis] > 0.0;
+        let meets = |ray: &ViewRay| match self.surface {
+            SliceSurface::Axis(axis) => along(ray, axis),
+            SliceSurface::Depth | SliceSurface::Distance => true,
+        };
+        let stride = |ray: &ViewRay| if meets(ray) { self.stride(ray) / self.spacing } else { f64::INFINITY };
+        corners.iter().map(stride).fold(1.0, f64::max)
+    }
+
+    /// Whether the opacities of all samples are those of a step.
+    pub fn evenly_spaced(&self, rays: &ViewRays) -> bool {
+        match self.surface {
+            SliceSurface::Depth => rays.parallel(),
+            SliceSurface::Distance => true,
+            SliceSurface::Axis(_) => false,
+        }
+    }
+}
+
+/// The axis along which a direction goes farthest.
+fn steepest(direction: DVec3) -> usize {
+    let by = direction.abs();
+    (0..3).max_by(|a, b| by[*a].total_cmp(&by[*b])).unwrap_or(2)
+}
+
+/// How far a place is within the volume and where clip planes keep it, grown by `slack`: in sides of the volume, at planes in volume units;
+/// negative outside.
+pub fn within(scene: &Scene, place: DVec3, slack: f64) -> f64 {
+    let faces = 0.5 - (place / scene.field.extent()).abs();
+    let planes = scene.clip_planes().iter().map(|plane| plane.height(place));
+    planes.fold(faces.min_element(), f64::min) + slack
+}
+
+/// Cuts slices to what a view shows of them.
+struct Cutter {
+    frustum: Frustum,
+    /// Where everything lies that shows, with a margin.
+    spaces: Vec<HalfSpace>,
+    /// Half of the sides of a box around the volume and its margin.
+    half: DVec3,
+}
+
+impl Cutter {
+    fn new(scene: &Scene) -> Result<Self> {
+        let frustum = Frustum::new(scene)?;
+        let (rays, half) = (&frustum.rays, 0.5 * scene.field.extent());
+        // Pixels are largest far away.
+        let deepest = if rays.parallel() { 1.0 } else { rays.deepest(-half, half) };
+        let margin = SLACK + MARGIN * deepest * rays.right.length().max(rays.down.length());
+        let face = |i: usize| {
+            let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+            HalfSpace { normal: sign * DVec3::AXES[i / 2], distance: -half[i / 2] }
+        };
+        let grown = |space: HalfSpace| HalfSpace { distance: space.distance - margin * space.normal.length(), ..space };
+        let kept = (0..6).map(face).chain(scene.clip_planes().iter().copied()).map(grown);
+        // Of a slice at the near plane nothing is to be cut off.
+        let near = HalfSpace { distance: frustum.near().distance - SLACK, ..frustum.near() };
+        let spaces = kept.chain([near]).chain(frustum.sides()).collect();
+        Ok(Self { frustum, spaces, half: half + margin })
+    }
+
+    /// The corners of triangles that cover what shows of a slice.
+    fn triangles(&self, slices: &Slices, slice: u32) -> Vec<DVec3> {
+        let by = f64::from(slice) * slices.spacing;
+        let (rays, forward) = (&self.frustum.rays, self.frustum.basis.forward);
+        match slices.surface {
+            SliceSurface::Depth => {
+                let distance = forward.dot(self.frustum.eye) + slices.first[0] + by;
+                self.polygon(HalfSpace { normal: forward, distance })
+            }
+            SliceSurface::Distance => self.shell(slices.first[0] + by),
+            SliceSurface::Axis(axis) => {
+                // In perspective rays go up above the eye and down below it.
+                let goes = |sign: f64, at: f64| match rays.lens {
+                    Lens::Orthographic => sign * rays.base[axis] > 0.0,
+                    Lens::Perspective => sign * (at - rays.origin[axis]) > 0.0,
+                };
+                let planes = [(1.0, slices.first[0] + by), (-1.0, slices.first[1] - by)];
+                let seen = planes.into_iter().filter(|(sign, at)| goes(*sign, *at));
+                seen.flat_map(|(_, at)| self.polygon(HalfSpace { normal: DVec3::AXES[axis], distance: at })).collect()
+            }
+        }
+    }
+
+    /// What shows of a plane, whose normal is a unit vector.
+    fn polygon(&self, plane: HalfSpace) -> Vec<DVec3> {
+        // More than the way between any two places of the box.
+        let reach = 4.0 * (1.0 + self.half.length());
+        let middle = plane.normal * plane.distance;
+        let u = plane.normal.any_orthonormal_vector();
+        let v = plane.normal.cross(u);
+        let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let square = square.map(|(a, b)| middle + reach * (a * u + b * v)).to_vec();
+        let corners = self.spaces.iter().fold(square, |corners, space| clipped(&corners, *space));
+        (1..corners.len().saturating_sub(1)).flat_map(|i| [0, i, i + 1].map(|c| corners[c])).collect()
+    }
+
+    /// The front of the part of the volume that lies as deep as some place of a sphere about the eye: what shows of it, and more.
+    fn shell(&self, distance: f64) -> Vec<DVec3> {
+        let (eye, forward) = (self.frustum.eye, self.frustum.basis.forward);
+        let least = distance / self.frustum.longest_direction();
+        let near = HalfSpace { normal: forward, distance: forward.dot(eye) + least };
+        let far = HalfSpace { normal: -forward, distance: -forward.dot(eye) - distance };
+        let enters = |space: &HalfSpace| self.frustum.enters(space);
+        let solid = Polyhedron::cuboid(self.half, enters);
+        let spaces = self.spaces.iter().chain([&near, &far]);
+        spaces.fold(solid, |solid, space| solid.clipped(*space, Some(enters(space)))).triangles(true)
+    }
+}
+
+/// What of a convex polygon lies in a half space.
+fn clipped(corners: &[DVec3], space: HalfSpace) -> Vec<DVec3> {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (over_a, over_b) = (space.height(a), space.height(b));
+        if over_a >= 0.0 {
+            kept.push(a);
+        }
+        if (over_a >= 0.0) != (over_b >= 0.0) {
+            kept.push(a + over_a / (over_a - over_b) * (b - a));
+        }
+    }
+    kept
+}

@@ -1,0 +1,163 @@
+//! Slices: how many there are, where they lie, and that those across parallel rays are a ray caster's samples; needs no device.
+
+use depthleap::frame::{CpuFrame, Structures, cpu};
+use depthleap::method::{self, METHODS, RC};
+use depthleap::part::rows::Method;
+use depthleap::plan::{Plan, plan};
+use depthleap::read;
+use depthleap::scene::settings::{Last, MethodName, Offset};
+use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack};
+use depthleap::scene::{Scene, Settings};
+
+fn scene(change: impl FnOnce(&mut Settings)) -> Scene {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some("shells:12x10x8".to_owned());
+    settings.image.size = [31, 25];
+    settings.sampling.termination = 1.0;
+    settings.sampling.samples_per_pass = 3;
+    change(&mut settings);
+    read::scene(&settings).expect("a sound scene")
+}
+
+fn drawn(scene: &Scene, method: MethodName) -> (Plan, CpuFrame) {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method;
+    let plan = plan(&scene, method::papers_form(method)).expect("a plan");
+    let mut structures = Structures::default();
+    structures.prepare(&scene, &plan);
+    let frame = cpu::run(&scene, &plan, &structures, cpu::SUB_PIXEL_BITS);
+    (plan, frame)
+}
+
+fn slicers() -> impl Iterator<Item = &'static Method> {
+    METHODS.into_iter().filter(|method| method.stack().is_some())
+}
+
+/// The largest difference of two pictures where neither is undecided.
+fn apart(a: &CpuFrame, b: &CpuFrame) -> f64 {
+    let decided = |i: &usize| !a.undecided[*i] && !b.undecided[*i];
+    let off = |i: usize| (0..4).map(|c| (a.pixels[i][c] - b.pixels[i][c]).abs()).fold(0.0, f64::max);
+    (0..a.pixels.len()).filter(decided).map(off).fold(0.0, f64::max)
+}
+
+/// Voxels along z.
+const VOXELS_DEEP: f64 = 8.0;
+
+/// A view along -z.
+fn along_z(settings: &mut Settings) {
+    settings.camera.height = Some(1.1);
+    settings.camera.eye = [0.0, 0.0, 2.0];
+}
+
+#[test]
+fn slices_across_parallel_rays_along_an_axis_are_a_ray_casters_samples() {
+    for (offset, step) in [(Offset::Left, 1.0), (Offset::Midpoint, 1.0), (Offset::Left, 0.7), (Offset::Midpoint, 2.3)] {
+        let scene = scene(|s| {
+            along_z(s);
+            (s.sampling.offset, s.sampling.step) = (offset, step);
+        });
+        let (_, cast) = drawn(&scene, RC.name());
+        for method in slicers() {
+            let (_, sliced) = drawn(&scene, method.name());
+            let off = apart(&cast, &sliced);
+            assert!(off < 1e-6, "{}, {offset:?}, step {step}: {off:e} apart", method.name);
+            if !method.looks_ahead() {
+                let samples: u64 = sliced.counts.main.iter().sum();
+                let rays = cast.counts.main[0];
+                assert_eq!(samples, rays * u64::from(scene.samples_on(VOXELS_DEEP / step)), "{}", method.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn order_of_drawing_changes_the_last_digits_alone() {
+    for eye in [[0.9, 0.6, 1.5], [0.11, 0.07, -0.13]] {
+        let scene = scene(|s| (s.camera.eye, s.camera.target) = (eye, [-0.1, 0.05, 0.0]));
+        for rule in slicers().filter(|method| method.back_to_front()) {
+            let (_, behind_first) = drawn(&scene, rule.name());
+            for method in slicers().filter(|method| method.stack() == rule.stack()) {
+                let (_, frame) = drawn(&scene, method.name());
+                let off = apart(&behind_first, &frame);
+                assert!(off < 1e-12, "{} from {eye:?}: {off:e} from {}", method.name, rule.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stack_lies_across_the_axis_nearest_to_the_view() {
+    let axis = |eye: [f64; 3]| {
+        let scene = scene(|s| s.camera.eye = eye);
+        Slices::new(&scene, Stack::Objects, None).unwrap().surface
+    };
+    assert_eq!(axis([2.0, 0.5, 0.4]), SliceSurface::Axis(0));
+    assert_eq!(axis([0.5, -2.0, 0.4]), SliceSurface::Axis(1));
+    assert_eq!(axis([0.1, 0.5, 2.0]), SliceSurface::Axis(2));
+    // Along a diagonal any will do.
+    assert!(matches!(axis([1.2, 1.2, 1.2]), SliceSurface::Axis(_)));
+}
+
+#[test]
+fn without_slices_between_textures_each_has_one() {
+    for (eye, voxels) in [([2.0, 0.5, 0.4], 12), ([0.5, -2.0, 0.4], 10), ([0.1, 0.5, 2.0], 8)] {
+        let scene = scene(|s| (s.camera.eye, s.method.between, s.sampling.step) = (eye, false, 0.3));
+        let slices = Slices::new(&scene, Stack::Objects, None).unwrap();
+        assert_eq!(slices.count, voxels);
+        let SliceSurface::Axis(axis) = slices.surface else { panic!("{slices:?}") };
+        let voxel = scene.field.voxel()[axis];
+        assert!((slices.spacing - voxel).abs() < 1e-15);
+        // From the side of the eye.
+        let first = if eye[axis] < 0.0 { slices.first[0] } else { -slices.first[1] };
+        assert!((first + 0.5 * scene.field.extent()[axis] - 0.5 * voxel).abs() < 1e-12, "{slices:?}");
+    }
+}
+
+#[test]
+fn spheres_are_a_step_apart_on_every_ray_and_planes_are_not() {
+    let scene = scene(|s| s.camera.fov_y = 60.0);
+    let plan = plan(&scene, None).unwrap();
+    let [middle, corner] = [plan.view.rays.of(15, 12), plan.view.rays.of(0, 0)];
+    let step = scene.settings.sampling.step * scene.field.finest();
+    let stride = |stack, ray| Slices::new(&scene, stack, None).unwrap().stride(ray) / step;
+    assert!(
+        (stride(Stack::Shells, &middle) - 1.0).abs() < 1e-12 && (stride(Stack::Shells, &corner) - 1.0).abs() < 1e-12
+    );
+    assert!((stride(Stack::View, &middle) - 1.0).abs() < 1e-12);
+    assert!((stride(Stack::View, &corner) - corner.direction.length()).abs() < 1e-12);
+    assert!(corner.direction.length() > 1.2);
+}
+
+#[test]
+fn what_slices_cannot_have_is_refused() {
+    let refused = |change: fn(&mut Settings), method: &Method, parts: &[&str]| {
+        let mut scene = scene(change);
+        scene.settings.method.name = method.name();
+        let error = plan(&scene, method.papers).map(drop).unwrap_err().to_string();
+        assert!(parts.iter().all(|part| error.contains(part)), "{}: {error}", method.name);
+    };
+    for method in slicers() {
+        refused(|s| s.sampling.last = Last::Partial, method, &["--method slices-", "--last full"]);
+        refused(|s| s.surface.iso = Some(90.0), method, &["--method slices-", "iso-surface", "--iso"]);
+        let many: fn(&mut Settings) = |s| {
+            s.volume.builtin = Some("shells:40".to_owned());
+            s.sampling.step = 1e-4;
+        };
+        let most = MOST.to_string();
+        refused(many, method, &["slices", &most, "--step 0.0001"]);
+    }
+}
+
+#[test]
+fn one_slice_and_many_are_drawn() {
+    let one = scene(|s| s.sampling.step = 40.0);
+    let many = scene(|s| (s.sampling.step, s.image.size) = (1e-3, [5, 5]));
+    for method in slicers().filter(|method| !method.looks_ahead()) {
+        let (plan, frame) = drawn(&one, method.name());
+        assert_eq!(plan.passes, 1, "{}", method.name);
+        assert!(frame.pixels.iter().flatten().all(|channel| channel.is_finite()), "{}", method.name);
+    }
+    let (plan, frame) = drawn(&many, method::SLICES_3D.name());
+    assert!(plan.view.slices.is_some_and(|slices| slices.count > 8_000));
+    assert!(frame.pixels[12][3] > 0.0);
+}
