@@ -40,6 +40,9 @@ pub const SLACK: f64 = 1.0 / (1 << 16) as f64;
 /// Polygons are wider than what they show by so many pixels, so that no rasteriser misses a pixel; shaders drop the rest.
 const MARGIN: f64 = 2.0;
 
+/// What f64 may take from a number of slices.
+const ROUNDING: f64 = 1e-9;
+
 /// Slices at the most; more are refused.
 pub const MOST: u32 = 1 << 17;
 
@@ -109,7 +112,8 @@ impl Slices {
             _ => (sampling.step * scene.field.finest(), sampling.offset.steps()),
         };
         let offset = offset * spacing;
-        let counted = |length: f64| ((length - offset) / spacing).ceil().max(0.0);
+        // One that is on the far face, but for rounding, shows nothing of the volume.
+        let counted = |length: f64| ((length - offset) / spacing - ROUNDING).ceil().max(0.0);
         let (first, count) = match surface {
             SliceSurface::Depth => {
                 let nearest = rays.nearest(-half, half);
