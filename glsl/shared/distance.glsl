@@ -34,7 +34,7 @@ uint free_from(Ray ray, uint i) {
         return 0u;
     }
     float inside = min(steps_inside(ray, place, box, CELL) * frame.step_voxels, FAR);
-    uint free = free_samples(ray, inside + float(byte - 1u));
+    uint free = free_samples(inside + float(byte - 1u), stride_of(ray));
     // What lies between the last free sample and the next one need not be free.
     return SPANS ? free - 1u : free;
 }

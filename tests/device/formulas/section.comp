@@ -11,6 +11,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 a = arguments.values[i];
     uint section = uint(a.x);
-    uint free = free_samples(a.y);
+    uint free = free_samples(a.y, 1.0);
     results.values[i] = vec4(section_depth(section, false), section_depth(section, true), float(free), DEAD);
 }
