@@ -44,7 +44,7 @@ void main() {
     if (shows) {
         vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
         Ray ray = ray_on_slice(pixel, slice, FILTER != HARDWARE);
-        shows = is_inside(ray, pixel) && is_between_layers(ray);
+        shows = is_inside(ray) && is_between_layers(ray);
         if (shows) {
             if (PROJECTION == AVERAGE) {
                 ray.samples = slices_met(pixel);

@@ -18,7 +18,7 @@ use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, pieces, rows};
+use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, Slices, pieces, rows};
 use random::Random;
 use rayon::prelude::*;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
@@ -96,6 +96,10 @@ fn axis_piece() -> Layout {
 
 fn clip_plane() -> Layout {
     layout!(ClipPlane { heights, plane })
+}
+
+fn slices() -> Layout {
+    layout!(Slices { first, spacing, steps, count })
 }
 
 /// What differs, one line each.
@@ -201,7 +205,7 @@ impl<'a> Types<'a> {
 }
 
 /// The structs that both sides know.
-const STRUCTS: [&str; 6] = ["Frame", "Step", "Slice", "Bundle", "ClipPlane", "AxisPiece"];
+const STRUCTS: [&str; 7] = ["Frame", "Step", "Slice", "Slices", "Bundle", "ClipPlane", "AxisPiece"];
 
 /// A module's name, and those of the structs that it has.
 type Known = (String, Vec<(&'static str, Layout)>);
@@ -248,6 +252,11 @@ fn step_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn slice_is_alike_in_rust_and_in_every_shader() {
     assert_alike("Slice", &slice(), "structure/distance_scan.comp:OCTANT");
+}
+
+#[test]
+fn slices_are_alike_in_rust_and_in_every_shader() {
+    assert_alike("Slices", &slices(), "termination.frag:MARK_COPY+SLICES");
 }
 
 #[test]

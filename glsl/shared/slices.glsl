@@ -16,7 +16,8 @@ const int DEPTH = 3;
 const int DISTANCE = 4;
 layout(constant_id = 51) const int SLICE_SURFACE = DEPTH;
 
-// So far does a slice reach beyond the volume, in its sides and, at clip planes and the near plane, in volume units. Twin: SLACK in src/scene/slices.rs.
+// So far does a slice reach beyond the volume, in its sides and, at clip planes and the near plane, in volume units.
+// Twin: SLACK in src/scene/slices.rs.
 const float SLICE_SLACK = exp2(-16.0);
 
 // The direction of a ray with component 1 along the view direction, and where it comes from.
@@ -181,7 +182,7 @@ Ray ray_on_slice(vec2 pixel, float slice, bool exactly) {
 }
 
 // Whether a place on a slice is in the volume, beyond the near plane and where clip planes keep it, or nearly so.
-bool is_inside(Ray ray, vec2 pixel) {
+bool is_inside(Ray ray) {
     bool inside = ray.depth >= frame.near - SLICE_SLACK;
     inside = inside && all(lessThanEqual(abs(ray.entry - 0.5), vec3(0.5 + SLICE_SLACK)));
 #ifdef PLANES

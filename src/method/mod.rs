@@ -36,6 +36,7 @@ use serde::{Deserialize, Deserializer};
 use crate::error::{Error, Result};
 use crate::part::form::Form;
 use crate::part::rows::Method;
+use crate::scene::Scene;
 use crate::scene::settings::MethodName;
 
 /// Every method, in the order of tables and of the help.
@@ -92,6 +93,13 @@ pub fn find(name: MethodName) -> Option<&'static Method> {
 /// A name that no method has. Names are checked when they are read, so that this is a fault of the program.
 pub fn of(name: MethodName) -> Result<&'static Method> {
     find(name).ok_or_else(|| Error::usage(format!("--method {name}"), "there is no such method", "please report this"))
+}
+
+/// Whether the method of that name draws a scene.
+pub fn takes(name: MethodName, scene: &Scene) -> bool {
+    let mut scene = scene.clone();
+    scene.settings.method.name = name;
+    find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
 /// The names of all methods, in their order.

@@ -9,6 +9,7 @@ use super::form::Form;
 use super::resource::Resource;
 use super::steps::Steps;
 use crate::error::{Error, Result};
+use crate::math::blend::Blend;
 use crate::projection::{self, Projection};
 use crate::scene::Scene;
 use crate::scene::settings::Distance;
@@ -303,6 +304,14 @@ impl<'a> Context<'a> {
     /// How the samples of a ray become its pixel.
     pub fn projection(&self) -> &'static Projection {
         projection::of(&self.scene.settings)
+    }
+
+    /// How a sample, or a layer, goes into what is drawn already.
+    pub fn blend(&self) -> Blend {
+        match self.projection().blend {
+            Blend::Over if self.method.back_to_front() => Blend::InFront,
+            blend => blend,
+        }
     }
 
     /// What the method looks up of what lies ahead; none where it looks up no distances.

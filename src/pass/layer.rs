@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::slices;
 use crate::feature::ISO_SURFACE;
 use crate::geometry::SCREEN;
 use crate::part::access::Usage;
@@ -38,6 +37,6 @@ fn blended(context: &Context, name: String, layer: u32, twin: TwinPass) -> Step 
         Usage::Color.of(resource::ACCUMULATED),
     ];
     let mut draw = Draw::plain(&SCREEN, "layer.frag", twin);
-    draw.blend = slices::blend(context);
+    draw.blend = context.blend();
     Step::drawn(name, Group::Blend, layer, accesses, draw)
 }

@@ -1,6 +1,6 @@
 //! What passes that decide about rays know them by: ENTRY and DIR, or where slices lie.
 
-use super::slices;
+use super::constants;
 use crate::feature;
 use crate::part::Draw;
 use crate::part::access::{Access, Usage};
@@ -23,5 +23,5 @@ pub fn find_length(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access
     accesses.extend(feature::reads(context, Hook::Interval));
     draw.define(["SLICES"]);
     draw.define(feature::defines(context, Hook::Interval));
-    draw.specialize([slices::surface(context)]);
+    draw.specialize([constants::slice_surface(context)]);
 }

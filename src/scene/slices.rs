@@ -56,7 +56,7 @@ pub struct Slices {
     /// From slice to slice, volume units.
     pub spacing: f64,
     pub count: u32,
-    /// Slices of a pass; all of them are drawn back to front where there is one pass alone.
+    /// Slices of a pass, which are drawn front to back; none where one pass draws all of them back to front.
     pub of_pass: Option<u32>,
     /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
     polygons: OnceLock<SlicePolygons>,

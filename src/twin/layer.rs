@@ -16,21 +16,24 @@ pub fn layer_without_surface(twin: &Twin, pixel: &mut Pixel, number: u32) -> Eff
 /// Blends the colour of a transparent layer under what is in front of it.
 pub fn layer(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
     let Some(surface) = pixel.layers.get(layer as usize) else { return Effect::Discarded };
-    pixel.accumulated = twin.layer_blend().apply(pixel.accumulated, surface.color);
+    pixel.accumulated = twin.blend().apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
 
 /// Blends the colour of the opaque surface under what is in front of it.
 pub fn opaque(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let Some(surface) = pixel.opaque else { return Effect::Discarded };
-    pixel.accumulated = twin.layer_blend().apply(pixel.accumulated, surface.color);
+    pixel.accumulated = twin.blend().apply(pixel.accumulated, surface.color);
     Effect::Silent
 }
 
 impl Twin<'_> {
-    /// How colours of layers are joined with what is drawn already.
-    fn layer_blend(&self) -> Blend {
-        if self.slices.is_some_and(|slices| slices.of_pass.is_none()) { Blend::InFront } else { Blend::Over }
+    /// How a sample on a slice, or the colour of a layer, is joined with what is drawn already.
+    pub(super) fn blend(&self) -> Blend {
+        match self.projection.blend {
+            Blend::Over if self.slices.is_some_and(|slices| slices.of_pass.is_none()) => Blend::InFront,
+            blend => blend,
+        }
     }
 
     /// Where the part of the ray that is drawn begins and ends, in steps; nothing is between them where the ray has no such part.

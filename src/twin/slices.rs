@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::{Effect, Pixel, Twin};
-use crate::math::blend::Blend;
 use crate::math::ray::ViewRay;
 use crate::projection::SampleWeight;
 use crate::scene::settings::Alpha;
@@ -30,12 +29,8 @@ pub fn slices(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
         }
         fragments += 1;
         let sample = twin.sample_on(slices, pixel, &ray, slice);
-        let blend = match twin.projection.blend {
-            Blend::Over if slices.of_pass.is_none() => Blend::InFront,
-            blend => blend,
-        };
         let before = pixel.accumulated;
-        pixel.accumulated = blend.apply(before, sample);
+        pixel.accumulated = twin.blend().apply(before, sample);
         let shows = match twin.projection.shows_values() {
             true => pixel.accumulated != before,
             false => sample[3] > 0.0,

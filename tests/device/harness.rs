@@ -108,7 +108,7 @@ const SHARE: usize = 2;
 const LEAST_SHARE: usize = 8;
 
 /// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every other one, by `turn` from
-/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every sixth. One at
+/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every eighth. One at
 /// least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();

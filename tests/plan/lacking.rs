@@ -39,16 +39,25 @@ fn preset(s: &mut Settings, name: &str) {
     s.transfer.preset = Some(name.to_owned());
 }
 
+/// More points than few, without colours: where there are few, colours or none are as many bytes.
+fn greys(s: &mut Settings) {
+    let point = |i: u32| {
+        let x = f64::from(i) / 19.0;
+        [x, x, x, x, if x < 0.25 { 0.0 } else { 0.5 * x }]
+    };
+    s.transfer.points = Some((0..20).map(point).collect());
+}
+
 pub const SCENES: [(&str, Change, Less); 20] = [
-    ("no colours", |s| preset(s, "ramp"), Less::Resource(resource::TRANSFER)),
+    ("no colours", greys, Less::Resource(resource::TRANSFER)),
     (
         "no colours, fused",
-        |s| (preset(s, "ramp"), s.method.name = method::NN_OMNI_FUSED.name()).1,
+        |s| (greys(s), s.method.name = method::NN_OMNI_FUSED.name()).1,
         Less::Resource(resource::TRANSFER),
     ),
     (
         "no colours, without skipping",
-        |s| (preset(s, "surface"), s.method.name = method::RC.name()).1,
+        |s| (greys(s), s.method.name = method::RC.name()).1,
         Less::Resource(resource::TRANSFER),
     ),
     (

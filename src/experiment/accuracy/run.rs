@@ -129,7 +129,7 @@ impl AccuracyJob {
         way.apply(&mut scene.settings);
         let own_settings = scene.settings.clone();
         // What is wrong with the scene's own way is an error when it is run; in other ways methods take their part.
-        let drawn = |name: &&MethodName| way == asked.own || takes(&scene, **name);
+        let drawn = |name: &&MethodName| way == asked.own || method::takes(**name, &scene);
         let mut curves: Vec<Curve> =
             methods.iter().filter(drawn).map(|name| curve(asked, way, &scene, *name)).collect();
         if curves.is_empty() {
@@ -160,13 +160,6 @@ impl AccuracyJob {
 /// So many ways of sampling are run by every method: of a surface, which all of them find alike, the scene's own.
 fn for_all(scene: &Scene) -> usize {
     if scene.surface.is_some() { 1 } else { 3 }
-}
-
-/// Whether a method draws a scene.
-fn takes(scene: &Scene, name: MethodName) -> bool {
-    let mut scene = scene.clone();
-    scene.settings.method.name = name;
-    method::find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
 /// A curve of a scene that is sampled in some way, without points.

@@ -66,12 +66,7 @@ impl StabilityCase {
     pub fn is_for(&self, method: MethodName, scene: Option<&Scene>) -> bool {
         let named = self.methods.is_empty() || self.methods.contains(&method);
         let refused = matches!(self.expect, Expect::Refused(_));
-        let takes = |scene: &Scene| {
-            let mut scene = scene.clone();
-            scene.settings.method.name = method;
-            method::find(method).is_some_and(|row| (row.takes)(&scene).is_ok())
-        };
-        named && (refused || scene.is_none_or(takes))
+        named && (refused || scene.is_none_or(|scene| method::takes(method, scene)))
     }
 
     /// A built-in volume, interpolated exactly, with a short last sample and no early termination; looked at from above
