@@ -9,7 +9,6 @@ use super::output::{self, Progress};
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::write_pages;
-use crate::experiment::reproduce::rates::RATE_SIZES;
 use crate::experiment::reproduce::{PAGES, Part, ReproduceJob, TimingPlan, keep, text};
 use crate::measure::write;
 
@@ -24,9 +23,9 @@ const REPEATS: u32 = 3;
 /// and prints its numbers beside ours, with the ratios to block skipping; of chapter 6, polygons in the volume, with those to
 /// the same without. What the thesis leaves open is swept, one choice at a time. Volumes that are not there are named; none
 /// stands in for another but a foot in chapter 6, which is named as such. Where a volume is
-/// there, draws scenes like the papers' figures too. Times the single pass on the volumes of Stegmaier05's Table 1, from
-/// several directions in two viewports, and shows frames per second and their ratios beside the paper's, and what early ray
-/// termination gains and loses. Writes reproduce.html, reproduce.json, reproduce.csv, reproduce-rates.csv and pictures/.
+/// there, draws scenes like the papers' figures too. Times the single pass and slices on the volumes of Stegmaier05's Table 1,
+/// and slices and ray casters on those of KW03's, from several directions, and shows frames per second and their ratios
+/// beside the papers', and what early ray termination gains and loses. Writes reproduce.html, reproduce.json, reproduce.csv, reproduce-rates.csv and pictures/.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap reproduce --data volumes -o out
@@ -60,12 +59,8 @@ pub struct ReproduceCommand {
 impl ReproduceCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
-        let timing = TimingPlan {
-            sizes: RATE_SIZES.to_vec(),
-            directions: self.directions,
-            repeats: self.repeats as usize,
-            sweep: !self.quick,
-        };
+        let timing =
+            TimingPlan { sizes: None, directions: self.directions, repeats: self.repeats as usize, sweep: !self.quick };
         let job = ReproduceJob { data: self.data.clone(), parts: self.parts.clone(), quick: self.quick, timing };
         let progress = Progress::new();
         let counted = job.run(&Host {

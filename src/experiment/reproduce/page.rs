@@ -2,11 +2,10 @@
 
 use super::embedded_rows::embedded_ratio;
 use super::papers::{DataSet, PaperRow};
+use super::rates::{RATE_TABLES, absent_rates, present_rates, rates_sweep, rates_table};
 use super::rows::ratio;
+use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::text::{KINDS, absent, kind_of_fragments, open_choices, percent, present};
-use super::timed_tables::{
-    RATES_TITLE, TERMINATION_TITLE, absent_rates, gains_table, present_rates, rates_sweep, rates_table,
-};
 use super::{FigureRecord, ReproducedSet, Reproduction, TimedRecord, Variant};
 use crate::report::html::{Html, Intro, Pictures, escape};
 use crate::report::table::{Column, Table};
@@ -16,7 +15,8 @@ pub fn page(found: &Reproduction, pictures: Pictures) -> String {
     let lead = "Use of GPU Functionality in Volume Rendering (NTNU, 2005) counted fragments of near-neighbor skipping beside \
                 those of empty block skipping, alone and with polygons in the volume. Its numbers stand beside ours, of the same \
                 views and steps; what it leaves open is swept. Frame rates of A Simple and Flexible Volume Rendering Framework for \
-                Graphics-Hardware-based Raycasting (2005) stand beside ours too.";
+                Graphics-Hardware-based Raycasting (2005) and of Acceleration Techniques for GPU-based Volume Rendering (2003) \
+                stand beside ours too.";
     let mut intro = Intro::new(vec![lead.to_owned()], &found.provenance);
     let timed = found.timed.iter().flat_map(|timed| &timed.rates);
     if let Some(run) = found.columns.iter().chain(timed).flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {
@@ -71,14 +71,15 @@ fn section(page: &mut Html, set: &DataSet, column: &ReproducedSet, pictures: Pic
 
 /// What was timed: frame rates, and early ray termination.
 fn timed_sections(page: &mut Html, timed: &TimedRecord, pictures: Pictures) {
-    if let Some((table, verdicts)) = rates_table(timed) {
+    for rates in RATE_TABLES {
+        let Some((table, said)) = rates_table(timed, rates) else { continue };
         page.raw("<section>\n");
-        page.tag("h2", RATES_TITLE);
-        page.raw("<p class=\"sub\">Stegmaier05, Table 1</p>\n");
-        let remarks = present_rates(timed).filter_map(|(set, _)| Some(format!("{}: {}", set.name, set.remark?)));
+        page.tag("h2", rates.title);
+        page.raw(&format!("<p class=\"sub\">{}, Table 1</p>\n", escape(rates.paper)));
+        let remarks = present_rates(timed, rates).filter_map(|(set, _)| Some(format!("{}: {}", set.name, set.remark?)));
         page.list(&remarks.collect::<Vec<_>>());
         page.raw("<div class=\"pictures\">");
-        for (set, column) in present_rates(timed) {
+        for (set, column) in present_rates(timed, rates) {
             let Some(file) = &column.picture else { continue };
             page.raw("<figure>");
             page.picture(pictures, file, set.name);
@@ -87,8 +88,8 @@ fn timed_sections(page: &mut Html, timed: &TimedRecord, pictures: Pictures) {
         }
         page.raw("</div>\n");
         page.table(&table);
-        verdicts.iter().for_each(|verdict| page.tag("p", verdict));
-        if let Some(sweep) = rates_sweep(timed) {
+        page.list(&said);
+        if let Some(sweep) = rates_sweep(timed, rates) {
             page.tag("h3", "each choice alone: frames per second");
             page.table(&sweep);
         }

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use super::data::DataFolder;
 use super::figures::{self, DrawnFigure};
 use super::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
-use super::rates::RATE_SETS;
-use super::rates_run::{TimingPlan, file_of, time_rates};
+use super::rates::{RATE_TABLES, TimingPlan, file_of, time_rates};
 use super::termination_run::time_termination;
 use super::{FORMAT, ReproducedSet, Reproduction, TimedRecord, Variant};
 use crate::error::Result;
@@ -75,7 +74,7 @@ pub type CountedSet = (ReproducedSet, Option<Picture>);
 pub struct TimedSets {
     /// What times are compared by on the device; none without one.
     pub clock: Option<Clock>,
-    /// In the order of [`RATE_SETS`].
+    /// The sets of all of [`RATE_TABLES`], in their order.
     pub rates: Vec<CountedSet>,
     pub termination: ReproducedSet,
 }
@@ -112,7 +111,7 @@ impl ReproduceJob {
         let times = self.data(Part::Times);
         let counted = DATA_SETS.iter().any(|set| self.file(set).is_ok());
         counted
-            || RATE_SETS.iter().any(|set| file_of(set, times).is_ok())
+            || RATE_TABLES.iter().flat_map(|table| table.sets).any(|set| file_of(set, times).is_ok())
             || figures::any_volume(self.data(Part::Figures))
     }
 
@@ -237,14 +236,15 @@ fn apart(base: &MethodSettings) -> Vec<MethodSettings> {
 /// When a file cannot be written.
 pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
     create_folder(folder)?;
-    let keep_all = |what: &str, sets: Vec<CountedSet>| -> Result<Vec<ReproducedSet>> {
-        sets.into_iter().map(|set| keep_set(folder, what, set)).collect()
+    let keep_all = |sets: Vec<CountedSet>, what: fn(&ReproducedSet) -> String| -> Result<Vec<ReproducedSet>> {
+        sets.into_iter().map(|set| keep_set(folder, &what(&set.0), set)).collect()
     };
-    let columns = keep_all("reproduce", counted.columns)?;
+    let columns = keep_all(counted.columns, |_| "reproduce".to_owned())?;
     let TimedSets { clock, rates, termination } = counted.timed;
     let timed = TimedRecord {
         clock,
-        rates: keep_all("rates", rates)?,
+        // Sets of several papers have one name; a source begins with its paper.
+        rates: keep_all(rates, |set| format!("rates {}", set.source.split(',').next().unwrap_or_default()))?,
         termination: keep_set(folder, "termination", (termination, None))?,
     };
     let mut figures = Vec::new();

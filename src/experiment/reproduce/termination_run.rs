@@ -1,8 +1,8 @@
 //! Times early ray termination: the same frames with it and without, in turn, from several directions.
 
 use super::data::DataFolder;
-use super::rates::{RATE_BASE, RATE_SETS};
-use super::rates_run::{NO_TERMINATION, TERMINATION, TimingPlan, effort, file_of, settings_of, turned};
+use super::rates::{NO_TERMINATION, RateSet, STEGMAIER, TERMINATION, TimingPlan};
+use super::rates::{effort, file_of, settings_of, turned};
 use super::{ReproducedSet, Variant};
 use crate::error::Result;
 use crate::experiment::Host;
@@ -38,6 +38,11 @@ pub const SEMI_TRANSPARENT: [[f64; 5]; 5] = [
     [1.0, 1.0, 0.9, 0.7, 0.6],
 ];
 
+/// The volume that the paper states it of.
+fn engine() -> &'static RateSet {
+    STEGMAIER.told_in().unwrap_or(&STEGMAIER.sets[0])
+}
+
 /// The engine, timed where its volume is there and `checked` is a device.
 ///
 /// # Errors
@@ -48,10 +53,9 @@ pub fn time_termination(
     plan: &TimingPlan,
     host: &Host,
 ) -> Result<ReproducedSet> {
-    let set = &RATE_SETS[RATE_BASE];
-    let file = file_of(set, data);
+    let file = file_of(engine(), data);
     let mut column = ReproducedSet {
-        name: set.name.to_owned(),
+        name: engine().name.to_owned(),
         source: "Stegmaier05 §7".to_owned(),
         file: file.as_ref().ok().map(|path| path.display().to_string()),
         absent: file.err(),
@@ -61,13 +65,13 @@ pub fn time_termination(
     let Some(checked) = checked else { return Ok(column) };
     let transfers = if plan.sweep { &TRANSFERS[..] } else { &TRANSFERS[..1] };
     for (value, change) in transfers {
-        let Some(settings) = settings_of(set, data, *change) else { break };
+        let Some(settings) = settings_of(&STEGMAIER, engine(), data, *change) else { break };
         let scene = read::scene(&settings)?;
         let mut runs = Vec::new();
         for direction in 0..plan.directions {
             let of = plan.directions;
             (host.say)(&format!("early ray termination: {value}, direction {} of {of}", direction + 1));
-            let mut pair = with_and_without(checked, &turned(&scene, plan, direction, plan.smallest()));
+            let mut pair = with_and_without(checked, &turned(&scene, plan, direction, plan.smallest(&STEGMAIER)));
             runs.extend(measure_abreast(&mut pair, effort(plan))?.into_iter().map(|one| one.run));
         }
         column.variants.push(Variant { choice: CHOICE.to_owned(), value: (*value).to_owned(), runs });
@@ -81,6 +85,6 @@ fn with_and_without<'a>(checked: &'a Checked, scene: &Scene) -> [Runner<'a>; 2] 
         let mut scene = scene.clone();
         scene.settings.sampling.termination = termination;
         scene.settings.method.name = method::SINGLE_PASS.name();
-        Runner::new(Some(checked), scene, RATE_SETS[RATE_BASE].name.to_owned())
+        Runner::new(Some(checked), scene, engine().name.to_owned())
     })
 }

@@ -5,11 +5,9 @@ use std::fmt::Write;
 use super::embedded::Geometry;
 use super::embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 use super::papers::{DATA_SETS, DataSet, OPEN};
-use super::rates::RATES_OPEN;
+use super::rates::{RATE_TABLES, absent_rates, present_rates, rates_sweep, rates_table};
 use super::rows::{lines, verdict};
-use super::timed_tables::{
-    RATES_TITLE, TERMINATION_TITLE, absent_rates, gains_table, present_rates, rates_sweep, rates_table,
-};
+use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::{FragmentLine, ReproducedSet, Reproduction, TimedRecord};
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
@@ -139,7 +137,7 @@ pub fn text(found: &Reproduction) -> String {
 pub fn open_choices(
     found: &Reproduction,
 ) -> impl Iterator<Item = (&'static str, &'static [(&'static str, &'static str)])> {
-    let timed = found.timed.as_ref().map(|_| ("Stegmaier05", &RATES_OPEN[..]));
+    let timed = found.timed.iter().flat_map(|_| RATE_TABLES).map(|table| (table.paper, table.open));
     std::iter::once(("the thesis", &OPEN[..])).chain(timed)
 }
 
@@ -147,14 +145,15 @@ pub fn open_choices(
 fn timed_text(timed: &TimedRecord) -> String {
     let layout = TextLayout { indent: 4, ..TextLayout::default() };
     let mut out = String::new();
-    if let Some((table, verdicts)) = rates_table(timed) {
-        let _ = writeln!(out, "{RATES_TITLE} (Stegmaier05, Table 1)");
-        for (set, remark) in present_rates(timed).filter_map(|(set, _)| Some((set, set.remark?))) {
+    for rates in RATE_TABLES {
+        let Some((table, said)) = rates_table(timed, rates) else { continue };
+        let _ = writeln!(out, "{} ({}, Table 1)", rates.title, rates.paper);
+        for (set, remark) in present_rates(timed, rates).filter_map(|(set, _)| Some((set, set.remark?))) {
             let _ = writeln!(out, "  {}: {remark}", set.name);
         }
         out += &table.text(&layout);
-        verdicts.iter().for_each(|verdict| out += &format!("    {verdict}\n"));
-        if let Some(sweep) = rates_sweep(timed) {
+        said.iter().for_each(|said| out += &format!("    {said}\n"));
+        if let Some(sweep) = rates_sweep(timed, rates) {
             let _ = writeln!(out, "  each choice alone: frames per second");
             out += &sweep.text(&layout);
         }

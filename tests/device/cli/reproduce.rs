@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use depthleap::experiment::Host;
-use depthleap::experiment::reproduce::rates::RATE_SETS;
+use depthleap::experiment::reproduce::rates::{RATE_TABLES, RateSet, RateTable};
 use depthleap::experiment::reproduce::termination::gain_lines;
-use depthleap::experiment::reproduce::{Part, ReproduceJob, TimingPlan};
+use depthleap::experiment::reproduce::{CountedSet, Part, ReproduceJob, TimingPlan};
 use depthleap::frame::self_check;
 use depthleap::measure::picture::Picture;
-use depthleap::measure::record::Clock;
+use depthleap::measure::record::{Clock, Run};
 use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::read;
 use depthleap::scene::scenes::{PaperFigure, STEGMAIER};
@@ -33,7 +33,7 @@ fn checked(device: &Arc<Device>) -> Checked {
 }
 
 fn times(device: &Arc<Device>) {
-    let timing = TimingPlan { sizes: vec![16, 24], directions: 2, repeats: 2, sweep: true };
+    let timing = TimingPlan { sizes: Some(vec![16, 24]), directions: 2, repeats: 2, sweep: true };
     let folder = tempfile::tempdir().unwrap();
     for file in FILES {
         std::os::unix::fs::symlink(data(file), folder.path().join(file)).unwrap();
@@ -44,23 +44,34 @@ fn times(device: &Arc<Device>) {
     assert!(counted.columns.iter().all(|(column, _)| column.variants.is_empty() && column.absent.is_some()));
     assert!(counted.figures.iter().all(|(figure, picture)| figure.absent.is_some() && picture.is_none()));
     assert!(counted.timed.clock.is_some());
-    for (set, (column, picture)) in RATE_SETS.iter().zip(&counted.timed.rates) {
-        assert_eq!(column.name, set.name);
-        assert_eq!(FILES.contains(&set.file), column.absent.is_none(), "{}: {:?}", set.name, column.absent);
-        let Some(main) = column.variants.first() else { continue };
-        assert_eq!(picture.as_ref().map(|picture| picture.size), Some([16; 2]));
-        let runs = &main.runs;
-        assert_eq!(runs.len(), 2 * 2, "{}: two viewports from two directions", set.name);
-        assert!(runs.iter().all(|run| run.milliseconds(Clock::Wall).is_some_and(|ms| ms > 0.0)), "{}", set.name);
-        assert_ne!(runs[0].settings.camera, runs[1].settings.camera, "{}", set.name);
-        assert!(runs[0].fragments.main > 0 && runs[2].fragments.main > runs[0].fragments.main, "{}", set.name);
-        // Only the bucky ball that is there has other slices than the paper's; the engine is what it is told in.
-        let choices: Vec<&str> = column.variants.iter().map(|variant| variant.choice.as_str()).collect();
-        assert_eq!(choices.contains(&"sampling distance"), set.name != "Head", "{}: {choices:?}", set.name);
-        assert!(column.variants[1..].iter().all(|variant| variant.runs.len() == 2), "{}", set.name);
+    let sets = RATE_TABLES.into_iter().flat_map(|table| table.sets.iter().map(move |set| (table, set)));
+    for ((table, set), counted) in sets.zip(&counted.timed.rates) {
+        assert_eq!(FILES.contains(&set.file), counted.0.absent.is_none(), "{}: {:?}", set.name, counted.0.absent);
+        assert_eq!((counted.0.name.as_str(), &counted.0.source), (set.name, &table.source(set)));
+        was_timed(table, set, counted);
     }
     let lines = gain_lines(&counted.timed.termination, Clock::Wall);
     assert!(lines.len() == 3 && lines.iter().all(|line| line.gains.len() == 2), "{lines:?}");
+}
+
+/// A set whose volume is there was timed by each renderer in both viewports from both directions.
+fn was_timed(table: &RateTable, set: &RateSet, (column, picture): &CountedSet) {
+    let Some(main) = column.variants.first() else { return assert!(column.absent.is_some()) };
+    assert_eq!(picture.as_ref().map(|picture| picture.size), Some([16; 2]));
+    let (runs, renderers) = (&main.runs, table.renderers.len());
+    let name = format!("{} {}", table.paper, set.name);
+    assert_eq!(runs.len(), renderers * 2 * 2, "{name}: two viewports from two directions");
+    assert!(runs.iter().all(|run| run.milliseconds(Clock::Wall).is_some_and(|ms| ms > 0.0)), "{name}");
+    let in_turn = table.renderers.iter().cycle().map(|renderer| renderer.method.name);
+    assert!(runs.iter().map(|run| run.method.as_str()).eq(in_turn.take(runs.len())), "{name}");
+    let of: Vec<&Run> = runs.iter().step_by(renderers).collect();
+    assert_ne!(of[0].settings.camera, of[1].settings.camera, "{name}");
+    assert!(of[0].fragments.main > 0 && of[2].fragments.main > of[0].fragments.main, "{name}");
+    // Only the bucky ball that is there has other slices than the paper's; the engine is what its table is told in.
+    let choices: Vec<&str> = column.variants.iter().map(|variant| variant.choice.as_str()).collect();
+    let steps = choices.contains(&"sampling distance");
+    assert_eq!(steps, table.base_set.is_some() && set.name != "Head", "{name}: {choices:?}");
+    assert!(column.variants[1..].iter().all(|variant| variant.runs.len() == 2 * renderers), "{name}");
 }
 
 fn figures(device: &Arc<Device>) {

@@ -1,56 +1,52 @@
-//! The frame rates of [Stegmaier05, Table 1], the volumes they are of, and what the paper leaves open.
+//! The frame rates of [Stegmaier05, Table 1]: the single pass beside slices.
 //!
-//! Its sampling distance was such that it "reflected the actual number of slices contained in the data set": one slice of
+//! The sampling distance was such that it "reflected the actual number of slices contained in the data set": one slice of
 //! the paper's volume, whatever the size of the one that is there.
 
 use std::path::PathBuf;
 
+use super::{RateSet, RateTable, Renderer, seen_near, whole_file};
 use crate::method;
-use crate::part::rows::Method;
-use crate::scene::settings::{ClipSettings, Settings};
+use crate::scene::settings::{Classification, ClipSettings, Last, Settings};
 
-/// A way of rendering that the table compares.
-#[derive(Clone, Copy)]
-pub struct Renderer {
-    /// As the paper calls it.
-    pub name: &'static str,
-    /// The method of ours.
-    pub method: &'static Method,
-}
+/// T of frames whose rays end early.
+pub const TERMINATION: f64 = 0.95;
 
-/// The table's halves. **To add one**: its row here, and its rates in `theirs` of each of [`RATE_SETS`].
-pub const RENDERERS: [Renderer; 1] = [Renderer { name: "Raycasting", method: &method::SINGLE_PASS }];
+/// T of frames whose rays do not.
+pub const NO_TERMINATION: f64 = 1.0;
 
-/// Sides of the table's square viewports, pixels.
-pub const RATE_SIZES: [u32; 2] = [512, 1024];
+/// The place in the table's sets of the engine, the one whose volume is the paper's.
+const ENGINE: usize = 1;
 
-/// The place in [`RATE_SETS`] of the data set that the rates of the others are told in: the one whose volume is the paper's.
-pub const RATE_BASE: usize = 1;
+/// The single pass beside slices with pre-integration, on volumes of several sizes.
+pub const STEGMAIER: RateTable = RateTable {
+    paper: "Stegmaier05",
+    title: "Frame rates of the single pass and of slices",
+    renderers: &[
+        Renderer { name: "Raycasting", method: &method::SINGLE_PASS, adapt: |_| {} },
+        // Every slice stands for the way to the next one.
+        Renderer { name: "Texture-based", method: &method::SLICES_3D, adapt: |s| s.sampling.last = Last::Full },
+    ],
+    base: 0,
+    sets: &SETS,
+    base_set: Some(ENGINE),
+    sizes: &[512, 1024],
+    common: |settings| {
+        settings.sampling.termination = NO_TERMINATION;
+        settings.sampling.classification = Classification::PreIntegrated;
+        settings.sampling.last = Last::None;
+    },
+    main: "ramp, T = 1, pre-integrated, one slice of the paper's volume, eye 1.91 away",
+    choices: &[
+        ("early ray termination", "T = 0.95", |s| s.sampling.termination = TERMINATION),
+        ("classification", "by the value of each sample", |s| s.sampling.classification = Classification::Post),
+        ("sampling distance", "one slice of the file's volume", |s| s.sampling.step = 1.0),
+        ("view", "eye 1.4 away", seen_near),
+    ],
+    open: &OPEN,
+};
 
-/// Makes settings see the volume of a file.
-pub type OpenVolume = fn(&mut Settings, PathBuf);
-
-/// A row of the table.
-#[derive(Clone, Copy, Debug)]
-pub struct RateSet {
-    /// As the paper calls it.
-    pub name: &'static str,
-    /// Voxels of the paper's volume.
-    pub dims: [u32; 3],
-    /// The file that is this volume, or the one that is nearest to it.
-    pub file: &'static str,
-    /// How the volume is made of the file, or why it cannot be.
-    pub open: std::result::Result<OpenVolume, &'static str>,
-    /// What a reader should know of that volume.
-    pub remark: Option<&'static str>,
-    /// One slice of the paper's volume, in voxels of the file's.
-    pub step: f64,
-    /// Frames per second by each of [`RENDERERS`] at each of [`RATE_SIZES`].
-    pub theirs: [[f64; RATE_SIZES.len()]; RENDERERS.len()],
-}
-
-/// The table's rows, in its order.
-pub const RATE_SETS: [RateSet; 4] = [
+const SETS: [RateSet; 4] = [
     RateSet {
         name: "Bucky Ball",
         dims: [128, 128, 128],
@@ -61,7 +57,7 @@ pub const RATE_SETS: [RateSet; 4] = [
              the paper's, from a texture that is a 64th of its size",
         ),
         step: 0.25,
-        theirs: [[14.0, 4.1]],
+        theirs: &[&[14.0, 4.1], &[41.3, 11.5]],
     },
     RateSet {
         name: "Engine",
@@ -70,7 +66,7 @@ pub const RATE_SETS: [RateSet; 4] = [
         open: Ok(engine),
         remark: Some("engine.nrrd has 128 slices, of which a clip plane leaves the paper's 110; the others are empty"),
         step: 1.0,
-        theirs: [[10.8, 3.2]],
+        theirs: &[&[10.8, 3.2], &[25.5, 7.2]],
     },
     RateSet {
         name: "Head",
@@ -81,22 +77,21 @@ pub const RATE_SETS: [RateSet; 4] = [
             "ct_head.nrrd has 208 x 256 x 225 voxels: by shape and size a part of the paper's head, which is not proven",
         ),
         step: 1.0,
-        theirs: [[7.2, 2.2]],
+        theirs: &[&[7.2, 2.2], &[16.6, 4.6]],
     },
     RateSet {
         name: "Lucy",
         dims: [256, 256, 512],
         file: "lucy_decimated.ply",
         open: Ok(distances),
-        remark: Some("a distance field that is made of lucy_decimated.ply, a mesh of 99,970 of the statue's triangles"),
+        remark: Some(
+            "a distance field that is made of lucy_decimated.ply, a mesh of 99,970 of the statue's triangles; the paper's slices \
+             could not load theirs",
+        ),
         step: 1.0,
-        theirs: [[7.0, 2.6]],
+        theirs: &[&[7.0, 2.6], &[]],
     },
 ];
-
-fn whole_file(settings: &mut Settings, path: PathBuf) {
-    settings.volume.path = Some(path);
-}
 
 /// As many distances to the mesh as the paper has.
 fn distances(settings: &mut Settings, path: PathBuf) {
@@ -117,16 +112,7 @@ fn engine(settings: &mut Settings, path: PathBuf) {
     settings.camera.target[2] = top - 0.5 * slices / ENGINE_SIDE;
 }
 
-impl RateSet {
-    /// What the paper says of the volume.
-    pub fn source(&self) -> String {
-        let [x, y, z] = self.dims;
-        format!("Stegmaier05, Table 1: {x} x {y} x {z} voxels")
-    }
-}
-
-/// What the paper leaves open, and what that means here.
-pub const RATES_OPEN: [(&str, &str); 8] = [
+const OPEN: [(&str, &str); 9] = [
     (
         "transfer function of the frame rates",
         "not given. Here `ramp`; without early ray termination no method of the table does other work for another one. With it, \
@@ -134,7 +120,8 @@ pub const RATES_OPEN: [(&str, &str); 8] = [
     ),
     (
         "early ray termination",
-        "not in the shader that the paper prints. Here T = 1, which ends no ray early; swept: T = 0.95",
+        "not in the shader that the paper prints. Here T = 1, which ends no ray early; swept: T = 0.95, which slices back to front \
+         take no notice of",
     ),
     ("classification", "pre-integrated in the printed shader. Here too; swept: by the value of each sample"),
     (
@@ -150,6 +137,11 @@ pub const RATES_OPEN: [(&str, &str); 8] = [
     (
         "sampling distance",
         "one slice. Here one of the paper's volume; swept, where the file has other slices: one of the file's",
+    ),
+    (
+        "slices",
+        "their geometry is not given. Here planes across the view direction, cut on the host, as many samples of a ray as the \
+         single pass takes and one more, which the printed shader leaves out",
     ),
     ("light", "the printed shader has none, and Table 1 names no other. Here none"),
     (
