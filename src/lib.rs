@@ -8,6 +8,7 @@
 //!    pixel, as rows; [`pass`]: each pass said once: its GLSL, what it reads and draws into, its f64 twin in [`twin`];
 //!    [`mod@resource`] and [`geometry`]: what passes read, draw into and cover pixels with; [`part`]: the types of all of
 //!    these.
+//!    [`auto`] chooses a method for a scene that names none.
 //! 4. [`frame`]: runs the list, on a device or in f64 through the twins.
 //! 5. [`measure`]: counts, times and errors of frames, one record a run.
 //! 6. [`report`]: records to tables, claims, pages and plots.
@@ -16,10 +17,12 @@
 //! Beside it [`mod@probe`] asks a driver what it culls before shading, without a volume.
 //!
 //! Imports point one way: `error, math <- scene <- projection <- read, structure, truth <- twin, shared`;
-//! `error <- provenance, glsl`; `error, math <- vulkan <- probe`; all of these `<- part <- resource <- geometry,
-//! feature <- pass <- method <- plan <- frame <- measure <- report
+//! `error <- provenance`; `error, cache <- glsl`; `error, math <- vulkan <- probe`; all of these `<- part <- resource <- geometry,
+//! feature <- pass <- method <- plan <- auto, frame <- measure <- report
 //! <- experiment <- cli`.
 
+pub mod auto;
+pub mod cache;
 pub mod cli;
 pub mod error;
 pub mod experiment;

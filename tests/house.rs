@@ -5,20 +5,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Folders and files at the top of `src`, each with all it may import; what is not named here is not there.
-const MAY_IMPORT: [(&str, &str); 25] = [
+const MAY_IMPORT: [(&str, &str); 27] = [
     ("error", ""),
+    ("cache", ""),
     ("math", ""),
     ("provenance", "error"),
     ("scene", "error math"),
     ("read", "error math scene"),
     ("projection", "error math scene"),
     ("structure", "error math scene projection"),
-    ("glsl", "error"),
+    ("glsl", "error cache"),
     ("vulkan", "error math"),
     ("truth", "error math scene projection"),
     ("twin", "error math scene projection structure truth"),
     ("shared", "error math scene projection structure truth"),
-    ("probe", "error provenance glsl vulkan"),
+    ("probe", "error cache provenance glsl vulkan"),
     ("part", "error math scene projection structure glsl vulkan truth twin shared"),
     ("resource", "error math scene projection structure vulkan truth shared part"),
     ("geometry", "math scene part resource"),
@@ -28,6 +29,7 @@ const MAY_IMPORT: [(&str, &str); 25] = [
         "method",
         "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass",
     ),
+    ("auto", "error math scene projection structure part method plan"),
     (
         "plan",
         "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method",
@@ -38,17 +40,17 @@ const MAY_IMPORT: [(&str, &str); 25] = [
     ),
     (
         "measure",
-        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method plan frame provenance",
+        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method auto plan frame provenance",
     ),
-    ("report", "error math scene provenance measure"),
+    ("report", "error math scene provenance auto measure"),
     (
         "experiment",
-        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
+        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method auto plan frame probe provenance \
          measure report",
     ),
     (
         "cli",
-        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method plan frame probe provenance \
+        "error math scene projection read structure glsl vulkan truth twin shared part resource pass method auto plan frame probe provenance \
          measure report experiment",
     ),
 ];

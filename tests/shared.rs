@@ -11,14 +11,14 @@ use std::mem::offset_of;
 use std::sync::LazyLock;
 
 use bytemuck::Zeroable;
-use depthleap::glsl::Shader;
-use depthleap::glsl::compile::CompiledModule;
+use depthleap::glsl::compile::{CompiledModule, compile_unoptimised};
+use depthleap::glsl::{self, Shader};
 use depthleap::part::Work;
 use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::transfer::{Knot, TransferFunction};
 use depthleap::scene::{Scene, Settings};
-use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, Slices, pieces, rows};
+use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, Piece, PushStep, Slice, SliceCut, Slices, pieces, rows};
 use random::Random;
 use rayon::prelude::*;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
@@ -100,6 +100,10 @@ fn clip_plane() -> Layout {
 
 fn slices() -> Layout {
     layout!(Slices { first, spacing, steps, count })
+}
+
+fn slice_cut() -> Layout {
+    layout!(SliceCut { reach, x, y, w, normal, first, beyond, spacing })
 }
 
 /// What differs, one line each.
@@ -257,6 +261,14 @@ fn slice_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn slices_are_alike_in_rust_and_in_every_shader() {
     assert_alike("Slices", &slices(), "termination.frag:MARK_COPY+SLICES");
+}
+
+#[test]
+fn slice_cut_is_alike_in_rust_and_in_the_vertex_shader() {
+    let text = glsl::built_in().text("slices_cut.vert").unwrap();
+    let module = load_words(&compile_unoptimised(&text, &[]).unwrap().words).unwrap();
+    let shader = Types::of(&module).layout("SliceCut").unwrap();
+    assert_eq!(differences(&slice_cut(), &shader), [""; 0]);
 }
 
 #[test]

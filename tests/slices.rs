@@ -164,3 +164,45 @@ fn one_slice_and_many_are_drawn() {
     let off = apart(&frame, &cast);
     assert!(off < 1e-3 && frame.pixels.iter().any(|pixel| pixel[3] > 0.1), "{off:e} from rays as finely sampled");
 }
+
+#[test]
+fn planes_for_the_vertex_shader_are_those_that_rays_meet() {
+    for (method, height) in [(method::SLICES_3D, None), (method::SLICES_2D, None), (method::SLICES_2D, Some(1.2))] {
+        let scene = scene(|s| s.camera.height = height);
+        let (plan, _) = drawn(&scene, method.name());
+        let slices = plan.view.slices.as_ref().unwrap();
+        let planes = slices.cut_planes(&scene).unwrap();
+        let ray = plan.view.rays.of(11, 7);
+        let place = ray.at(slices.depth(&ray, 3));
+        let up = match slices.surface {
+            SliceSurface::Axis(axis) => ray.direction[axis] > 0.0,
+            _ => true,
+        };
+        let by = 3.0 * planes.spacing;
+        let (at, shows) = match up {
+            true => (planes.first[0] + by, planes.first[0] + by > planes.beyond[0]),
+            false => (planes.first[1] - by, planes.first[1] - by < planes.beyond[1]),
+        };
+        assert!((planes.normal.dot(place) - at).abs() < 1e-12 && shows, "{}", method.name);
+        let [x, y, w] = planes.clip.map(|row| row.dot(place.extend(1.0)));
+        let pixel = [(x / w + 1.0) * 0.5 * 31.0, (y / w + 1.0) * 0.5 * 25.0];
+        assert!((pixel[0] - 11.5).abs() < 1e-9 && (pixel[1] - 7.5).abs() < 1e-9, "{}: {pixel:?}", method.name);
+        assert_eq!(slices.numbers().len(), slices.numbers_in_all() as usize);
+        assert_eq!(slices.numbers_in(0), 0..slices.numbers_in_all(), "all in one pass");
+    }
+    let (plan, _) = drawn(&scene(|_| {}), method::SLICES_SHELLS.name());
+    assert_eq!(plan.view.slices.as_ref().unwrap().cut_planes(&scene(|_| {})), None);
+}
+
+#[test]
+fn spheres_are_not_cut_by_the_vertex_shader() {
+    let scene = scene(|s| s.method.slice_cut = depthleap::scene::settings::SliceCut::Device);
+    for row in slicers() {
+        let refused = (row.takes)(&{
+            let mut scene = scene.clone();
+            scene.settings.method.name = row.name();
+            scene
+        });
+        assert_eq!(refused.is_err(), row.stack() == Some(Stack::Shells), "{}", row.name);
+    }
+}

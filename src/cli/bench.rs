@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::open::DeviceOptions;
-use super::options::{BENCH_METHODS, SceneOptions, method_parser, scene_name};
+use super::options::{AskedMethods, BENCH_METHODS, SceneOptions, asked_methods_parser, scene_name};
 use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::Host;
@@ -14,7 +14,7 @@ use crate::experiment::bench::{self, BenchJob, keep, table};
 use crate::experiment::folder::write_pages;
 use crate::measure::{law, write};
 use crate::report::comparison::groups;
-use crate::report::{branching, verdict};
+use crate::report::{branching, choices, verdict};
 use crate::scene::settings::{CELLS, EXTRA_FETCHES, MethodName, Settings};
 
 /// Every method on every scene: the main job
@@ -26,6 +26,7 @@ use crate::scene::settings::{CELLS, EXTRA_FETCHES, MethodName, Settings};
 #[command(after_help = "Examples:
   depthleap bench -o out
   depthleap bench fuel.nrrd aneurism.nrrd --tf ramp -o out
+  depthleap bench engine.nrrd fuel.nrrd --method all,auto -o out
   depthleap bench engine.nrrd --method rc-block,nn-omni --forms all --repeats 9 -o out
   depthleap bench engine.nrrd --method nn-omni,nn-optimal,nn-cone --orbit 72 -o out
   depthleap bench engine.nrrd --method rc-ert,nn-omni --gpu-cost 32 -o out
@@ -39,8 +40,8 @@ pub struct BenchCommand {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Render methods, with commas between
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = method_parser(), default_values = BENCH_METHODS.map(MethodName::name))]
-    method: Vec<MethodName>,
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = asked_methods_parser(), default_values = BENCH_METHODS.map(MethodName::name))]
+    method: Vec<AskedMethods>,
     /// Forms of culling and marking
     #[arg(long, value_name = "WHICH", default_value = "one")]
     forms: Forms,
@@ -101,7 +102,8 @@ impl BenchCommand {
         };
         let job = BenchJob {
             scenes: self.scenes.iter().map(scene).collect::<Result<_>>()?,
-            methods: self.method.clone(),
+            methods: self.method.iter().flat_map(AskedMethods::names).collect(),
+            where_drawn: self.method.contains(&AskedMethods::All),
             all_forms: self.forms == Forms::All,
             cells: self.cells.clone(),
             repeats: self.repeats,
@@ -123,7 +125,11 @@ impl BenchCommand {
         let written = write_pages(&self.output, &[&bench::PAGES])?;
         output::warn(&results.runs);
         let groups = groups(&results.runs);
-        let verdict = std::iter::once(verdict(&groups)).chain(branching(&groups)).collect::<Vec<_>>().join("\n");
+        let verdict = std::iter::once(verdict(&groups))
+            .chain(branching(&groups))
+            .chain(choices(&groups))
+            .collect::<Vec<_>>()
+            .join("\n");
         let text = format!("{}\n{verdict}\n\n{}", table(&results.runs), output::reports(&written));
         write::write_standard_output(text.as_bytes())?;
         lawful

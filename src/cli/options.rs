@@ -155,8 +155,53 @@ fn surface_name(settings: &Settings) -> String {
 
 /// The names of methods, each with what it is.
 pub(super) fn method_parser() -> impl TypedValueParser<Value = MethodName> {
-    let value = |method: &Method| PossibleValue::new(method.name).help(format!("{} [{}]", method.about, method.source));
-    PossibleValuesParser::new(method::METHODS.map(value)).try_map(|name| name.parse::<MethodName>())
+    PossibleValuesParser::new(method::METHODS.map(value_of)).try_map(|name| name.parse::<MethodName>())
+}
+
+/// The same with the choice among them.
+pub(super) fn method_or_auto_parser() -> impl TypedValueParser<Value = MethodName> {
+    PossibleValuesParser::new(names_with_auto().collect::<Vec<_>>()).try_map(|name| name.parse::<MethodName>())
+}
+
+fn names_with_auto() -> impl Iterator<Item = PossibleValue> {
+    let about = "What a look at the scene finds to take the least time, with M, look-ups and cell [not in the papers]";
+    let auto = PossibleValue::new(MethodName::AUTO.name()).help(about);
+    std::iter::once(auto).chain(method::METHODS.map(value_of))
+}
+
+/// Methods that are asked for by one word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum AskedMethods {
+    /// Every one that runs on a device.
+    All,
+    One(MethodName),
+}
+
+impl AskedMethods {
+    pub(super) fn names(&self) -> Vec<MethodName> {
+        let on_device = || method::METHODS.into_iter().filter(|method| method.on_device);
+        match self {
+            Self::All => on_device().map(Method::name).collect(),
+            Self::One(name) => vec![*name],
+        }
+    }
+}
+
+/// The word for every method.
+const ALL: &str = "all";
+
+/// The names of methods, `auto`, and the word for every method that draws the scene.
+pub(super) fn asked_methods_parser() -> impl TypedValueParser<Value = AskedMethods> {
+    let every = PossibleValue::new(ALL).help("Every method that runs on a device, where it draws the scene");
+    let names = std::iter::once(every).chain(names_with_auto());
+    PossibleValuesParser::new(names.collect::<Vec<_>>()).try_map(|name| match name.as_str() {
+        ALL => Ok(AskedMethods::All),
+        name => name.parse().map(AskedMethods::One),
+    })
+}
+
+fn value_of(method: &Method) -> PossibleValue {
+    PossibleValue::new(method.name).help(format!("{} [{}]", method.about, method.source))
 }
 
 /// The names of projections, each with what it is.

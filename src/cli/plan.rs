@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, Serializer};
 
-use super::options::{SceneOptions, method_parser, scene_name};
+use super::options::{SceneOptions, method_or_auto_parser, scene_name};
 use super::output;
+use crate::auto::{AutoRecord, DeviceFacts, settle};
 use crate::measure::record::TextureRecord;
 use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
@@ -31,8 +32,8 @@ pub struct PlanCommand {
     /// Scene file (.toml), volume file, mesh file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
     #[arg(value_name = "SCENE|VOLUME")]
     scene: Option<OsString>,
-    /// Render method [default: nn-omni]
-    #[arg(long, value_name = "NAME", value_parser = method_parser())]
+    /// Render method [default: auto]
+    #[arg(long, value_name = "NAME", value_parser = method_or_auto_parser())]
     method: Option<MethodName>,
     /// Write the plan as JSON too; for - to standard output, instead of the text
     #[arg(long, value_name = "FILE")]
@@ -61,6 +62,8 @@ struct PlanJson<'a> {
     left_out: &'a [LeftOut],
     /// How the volume is kept, where it is read, with bounds of the errors of x and of a channel.
     texture: Option<TextureRecord>,
+    /// What `auto` has chosen, for a device of which nothing is known.
+    auto: Option<AutoRecord>,
     warnings: Vec<String>,
 }
 
@@ -106,15 +109,17 @@ impl PlanCommand {
         output::check(&outputs)?;
         let mut settings = self.scene_options.settings(self.scene.as_deref())?;
         settings.method.name = self.method.unwrap_or(settings.method.name);
-        let scene = read::scene(&settings)?;
-        let form = plan::form(&scene, method::papers_form(settings.method.name))?;
+        let mut scene = read::scene(&settings)?;
+        let auto = settle(&mut scene, &DeviceFacts::default())?;
+        let form = plan::form(&scene, method::papers_form(scene.settings.method.name))?;
         let plan = plan::plan(&scene, form)?;
         let warnings = plan::warnings(&scene, &plan);
         let name = scene_name(&settings);
         output::say("note", &name, &plan::notes(&scene));
+        auto.iter().for_each(|auto| output::say("note", &name, &auto.sentences()));
         output::say("warning", &name, &warnings);
         if let Some(file) = &self.json {
-            write_json(file, &to_json(&scene, &plan, warnings))?;
+            write_json(file, &to_json(&scene, &plan, auto, warnings))?;
             if is_standard_output(file) {
                 return Ok(());
             }
@@ -145,7 +150,7 @@ fn text(scene: &Scene, plan: &plan::Plan) -> String {
     text
 }
 
-fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> PlanJson<'a> {
+fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, auto: Option<AutoRecord>, warnings: Vec<String>) -> PlanJson<'a> {
     let (facts, of_frame) = (plan.facts(scene), plan.resources_of(plan.frame()));
     let resources: Vec<(Resource, u64)> = plan.resources().into_iter().map(|r| (r, r.bytes(&facts))).collect();
     let json = |(resource, bytes): &(Resource, u64)| ResourceJson { name: resource.name(), bytes: *bytes };
@@ -164,6 +169,7 @@ fn to_json<'a>(scene: &Scene, plan: &'a plan::Plan, warnings: Vec<String>) -> Pl
         bytes: resources.iter().filter(|(r, _)| of_frame.contains(r)).map(|(_, bytes)| bytes).sum(),
         left_out: &plan.left_out,
         texture: TextureRecord::of(plan),
+        auto,
         warnings,
     }
 }

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::experiment::folder::write_pages;
 use crate::experiment::probe::{PAGES, compare, keep, run, text};
 use crate::measure::write;
-use crate::probe::{Probe, record};
+use crate::probe::{Probe, known, record};
 
 /// What this driver culls before shading, and how fast
 ///
@@ -18,6 +18,7 @@ use crate::probe::{Probe, record};
 /// that may forbid to do so early, in every depth format: whether picture, depths and counts are right, whether the shader
 /// runs for rejected fragments, in which patterns, and how many are rejected in a second. All of it is measured. Writes
 /// probe.json and report.html (probe.html beside the results of a bench, whose report shows it when it is made again: `depthleap report DIR`).
+/// A copy stays in the cache, where `--method auto` finds it.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap probe -o out
@@ -50,6 +51,7 @@ impl ProbeCommand {
         let found = found?;
         DeviceOptions::judge(&instance)?;
         keep(&self.output, &found)?;
+        known::keep(&found);
         let written = write_pages(&self.output, &[&PAGES])?;
         let mut out = text(&found);
         if let Some(other) = &other {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::open::DeviceOptions;
-use super::options::{SceneOptions, method_parser, scene_name};
+use super::options::{SceneOptions, method_or_auto_parser, scene_name};
 use super::output::{self, Progress};
 use crate::error::{Error, Result};
 use crate::experiment::bench::table;
@@ -41,8 +41,8 @@ pub struct Render {
     /// row 0 on top); -.png, -.exr and -.npy write to standard output, - is -.png
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     output: PathBuf,
-    /// Render method [default: nn-omni]
-    #[arg(long, value_name = "NAME", value_parser = method_parser())]
+    /// Render method [default: auto]
+    #[arg(long, value_name = "NAME", value_parser = method_or_auto_parser())]
     method: Option<MethodName>,
     /// Repeat the run whose settings stand in this JSON of `render` or `bench`, options given here win; FILE#INDEX picks
     /// one of several, counted from 0

@@ -267,7 +267,7 @@ impl Compiler<'_> {
                 bound.push((resource.name(), Bound::Input(&self.targets[&resource])));
             } else if access.usage.is_storage_image() {
                 bound.push((resource.name(), Bound::StorageImage(&self.targets[&resource])));
-            } else if !matches!(access.usage, Usage::Sampled | Usage::ComputeRead) {
+            } else if !matches!(access.usage, Usage::Sampled | Usage::Placing | Usage::ComputeRead) {
                 continue;
             } else if let Some(image) = self.image(resource) {
                 let sampler = match (&self.linear, &resource.of.kind) {

@@ -22,5 +22,5 @@ pub use cpu::{Counts, CpuFrame, LayerCounts};
 pub use gpu::{EarlyEnd, GpuFrame};
 pub use queries::{FrameRun, Measure};
 pub use resident::Resident;
-pub use self_check::{SelfCheck, Verdict, self_check};
+pub use self_check::{SelfCheck, Verdict, culls_late, self_check};
 pub use structures::Structures;

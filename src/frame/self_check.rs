@@ -18,6 +18,8 @@ use crate::part::form::Form;
 use crate::part::rows::Method;
 use crate::plan::{self, Choice};
 use crate::probe::correct::{Depth, faults};
+use crate::probe::decide::Culling;
+use crate::probe::known;
 use crate::probe::run::missing;
 use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, rig};
 use crate::scene::builtin;
@@ -77,14 +79,29 @@ fn forms() -> Vec<Form> {
 /// Pixels of a side of the picture that is probed.
 const PROBED: u32 = 64;
 
+/// What the passes of a form that test only ask of the device.
+fn tested(form: Form) -> Case {
+    let (mechanism, shader) = match form.cull {
+        Cull::Bounds | Cull::Auto => (Mechanism::BoundsRead, CaseShader::Early),
+        Cull::Ztest => (Mechanism::DepthRead, CaseShader::Early),
+        Cull::Discard => (Mechanism::Alive, CaseShader::Plain),
+    };
+    Case { mechanism, shader, compare: Compare::GreaterOrEqual }
+}
+
+/// Why fragments that a form culls are shaded all the same, by a probe of the device that was made before; none where they are not, or
+/// nobody knows.
+pub fn culls_late(device: &Device, form: Form) -> Option<String> {
+    let probe = known::of(&device.info)?;
+    let line = probe.lines.iter().find(|line| line.case == tested(form))?;
+    let late = line.culling() == Some(Culling::Late);
+    late.then(|| format!("the probe of {} found {} to cull late", probe.provenance.date, form.name()))
+}
+
 /// What the passes of a form ask of the device: of those that test only, and of those that mark.
 fn cases(form: Form) -> Vec<Case> {
     let case = |mechanism, shader| Case { mechanism, shader, compare: Compare::GreaterOrEqual };
-    let tested = match form.cull {
-        Cull::Bounds | Cull::Auto => case(Mechanism::BoundsRead, CaseShader::Early),
-        Cull::Ztest => case(Mechanism::DepthRead, CaseShader::Early),
-        Cull::Discard => case(Mechanism::Alive, CaseShader::Plain),
-    };
+    let tested = tested(form);
     match form.mark {
         Mark::Fragdepth | Mark::Auto => vec![tested, case(Mechanism::BoundsCompare, CaseShader::DepthLess)],
         Mark::FragdepthAny => vec![tested, case(Mechanism::BoundsCompare, CaseShader::DepthAny)],

@@ -9,5 +9,5 @@ mod volume_box;
 
 pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
-pub use slices::SLICES;
+pub use slices::{SLICES, SLICES_CUT};
 pub use volume_box::{BOX_BACK, BOX_FRONT};

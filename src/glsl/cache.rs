@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use sha2::{Digest, Sha256};
 
 use super::source::Text;
+use crate::cache;
 
 /// Begins every file; its last digit changes with what follows.
 const MAGIC: [u8; 8] = *b"DLSPIRV1";
@@ -58,10 +59,7 @@ pub struct Cache {
 impl Cache {
     /// `depthleap/shaders` below `$XDG_CACHE_HOME`, else below `~/.cache`; none where there is no home either.
     pub fn of_user() -> Self {
-        // A path that is not absolute has to be ignored [XDG Base Directory Specification 0.8].
-        let set = std::env::var_os("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
-        let root = set.or_else(|| std::env::home_dir().map(|home| home.join(".cache")));
-        Self { folder: root.map(|root| root.join("depthleap/shaders")) }
+        Self { folder: cache::folder().map(|folder| folder.join("shaders")) }
     }
 
     pub fn at(folder: PathBuf) -> Self {

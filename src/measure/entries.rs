@@ -188,6 +188,21 @@ pub struct OrbitFrame {
     pub cpu_ms: f64,
     /// Wall time of slices of a build between this frame and the next, milliseconds; 0 with a queue of its own.
     pub build_ms: f64,
+    /// The axis of the stack of 2D textures that slices were taken from: `x`, `y`, `z`; none for other methods.
+    #[serde(default)]
+    pub stack: Option<String>,
+    /// How far the picture is from that of the frame before; none of the first frame.
+    #[serde(default)]
+    pub change: Option<ChangeRecord>,
+}
+
+/// How far neighbouring pictures of an orbit are from each other, in premultiplied linear RGBA.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChangeRecord {
+    /// Largest difference of a channel.
+    pub largest: f64,
+    /// Root of the mean squared difference over all pixels and channels.
+    pub rms: f64,
 }
 
 /// What times are compared by.

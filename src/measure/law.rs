@@ -16,7 +16,12 @@ pub fn law_of_skipping(measured: &mut [Measured]) {
             continue;
         }
         rules.push(samples);
-        let same = |one: &&mut Measured| one.method.under_the_law() && one.method.unskipped().name == samples;
+        // Where `auto` has chosen another M, colours are rounded at other places.
+        let m = rule.run.settings.sampling.samples_per_pass;
+        let same = |one: &&mut Measured| {
+            let as_many = one.run.settings.sampling.samples_per_pass == m;
+            one.method.under_the_law() && one.method.unskipped().name == samples && as_many
+        };
         rest.iter_mut().filter(same).for_each(|one| hold(one, rule));
     }
 }

@@ -8,6 +8,7 @@
 //! 5. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
 
 pub mod abreast;
+mod chosen;
 mod entries;
 pub mod error;
 pub mod fragment_kind;

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
+use super::chosen::settle;
 use super::error::compare;
 use super::fragment_kind::FragmentKind;
 use super::frame_times::{gpu_times, host_times, pass_times};
@@ -15,6 +16,7 @@ use super::record::{CountsRecord, EffectRecord, FORMAT, Ideal, LeftOutRecord, Ru
 use super::saving;
 use super::timing::Timing;
 use super::warnings::warnings;
+use crate::auto::AutoRecord;
 use crate::error::{Error, Result};
 use crate::frame::{
     self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, LayerCounts, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
@@ -55,14 +57,20 @@ pub struct Runner<'a> {
     pub(crate) scene: Scene,
     pub(crate) name: String,
     pub(crate) resident: Option<Resident>,
-    /// The twin's frame, with and without early termination.
-    references: BTreeMap<&'static str, CpuFrame>,
+    /// The twin's frames, by the method that skips nothing and by M.
+    references: BTreeMap<(&'static str, u32), CpuFrame>,
+}
+
+/// A scene with its plan, and what was chosen for it.
+struct Planned {
+    scene: Scene,
+    plan: Plan,
+    auto: Option<AutoRecord>,
 }
 
 /// A frame under measurement.
 pub(super) struct Entry {
-    scene: Scene,
-    plan: Plan,
+    planned: Planned,
     frame: Option<GpuFrame>,
     counts: FrameRun,
     picture: Picture,
@@ -141,46 +149,49 @@ impl<'a> Runner<'a> {
         methods.iter().try_for_each(|method| self.plan(method).map(drop))
     }
 
-    fn plan(&self, method: &MethodSettings) -> Result<(Scene, Plan)> {
+    fn plan(&self, method: &MethodSettings) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let row = method::of(method.name)?;
+        let auto = settle(&mut scene, self.checked)?;
+        let name = scene.settings.method.name;
+        let row = method::of(name)?;
         let plan = if !row.on_device {
             plan::plan(&scene, row.papers)?
         } else {
             let checked = self.checked.ok_or_else(no_device)?;
-            let form = plan::form(&scene, checked.check.automatic(method.name))?;
+            let form = plan::form(&scene, checked.check.automatic(name))?;
             refuse_missing(checked, form)?;
             let plan = plan_on(&checked.device, &scene, form, None)?;
             limits::check_device(&checked.device.info, &scene, &plan)?;
             plan
         };
         limits::check_host(&scene)?;
-        Ok((scene, plan))
+        Ok(Planned { scene, plan, auto })
     }
 
     pub(super) fn prepare(&mut self, method: &MethodSettings, effort: Effort) -> Result<Entry> {
-        let (scene, plan) = self.plan(method)?;
+        let planned = self.plan(method)?;
+        let Planned { scene, plan, .. } = &planned;
         if !plan.method.on_device {
-            return prepare_cpu(scene, plan);
+            return prepare_cpu(planned);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
-        resident.prepare(&scene, &plan)?;
-        let mut frame = GpuFrame::new(&checked.device, &scene, &plan, resident, checked.early_end)?;
+        resident.prepare(scene, plan)?;
+        let mut frame = GpuFrame::new(&checked.device, scene, plan, resident, checked.early_end)?;
         for _ in 0..effort.warmups {
             frame.run(Measure::Nothing)?;
         }
         let statistics = checked.check.statistics.is_none();
         let counts = frame.run(Measure::Counts { statistics })?;
         let picture = Picture::new(scene.settings.image.size, frame.picture()?)?;
-        Ok(Entry { scene, plan, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
+        Ok(Entry { planned, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
     }
 
     /// The twin's frame for a method: those with the same samples share it.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
         let method = method::of(scene.settings.method.name)?;
         let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
-        match self.references.entry(method.unskipped().name) {
+        match self.references.entry((method.unskipped().name, scene.settings.sampling.samples_per_pass)) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
                 let mut scene = scene.clone();
@@ -196,15 +207,16 @@ impl<'a> Runner<'a> {
     }
 
     pub(super) fn finish(&mut self, entry: Entry, effort: Effort) -> Result<Measured> {
-        let size = entry.scene.settings.image.size;
+        let Planned { scene, plan, auto } = &entry.planned;
+        let size = scene.settings.image.size;
         let (mut error, mut ideal, mut reference) = (None, None, None);
         // The twin has no GLSL.
-        if effort.reference && entry.plan.passes > 0 && entry.scene.effect.is_none() {
-            let frame = self.reference(&entry.scene, entry.plan.passes)?;
+        if effort.reference && plan.passes > 0 && scene.effect.is_none() {
+            let frame = self.reference(scene, plan.passes)?;
             let twin = single(frame, size)?;
             let compared = compare(&entry.picture, &twin, Some(&frame.undecided))?;
             error = Some(compared.record("the same sum in f64 (`cpu`)"));
-            let counted = entry.plan.method.ends_rays && !entry.plan.method.loops();
+            let counted = plan.method.ends_rays && !plan.method.loops();
             ideal = counted.then_some(Ideal { main: frame.ideal });
             reference = Some(twin);
         }
@@ -212,48 +224,48 @@ impl<'a> Runner<'a> {
         let info = self.checked.map(|c| &c.device.info).filter(|_| !on_cpu);
         let device = info.map_or_else(|| "none (f64 on the CPU)".to_owned(), |i| i.name.clone());
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
-        let form = entry.plan.form.filter(|_| !on_cpu);
+        let form = plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
         let counted =
             |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate).with_layers(&counts.layers);
         let run = Run {
             version: FORMAT,
             scene: self.name.clone(),
-            view: view_in_words(&entry.scene),
-            method: entry.scene.settings.method.name.name().to_owned(),
+            view: view_in_words(scene),
+            method: plan.method.name.to_owned(),
             cull: form.map(|f| f.cull_name().to_owned()),
             mark: form.map(|f| f.mark_name().to_owned()),
-            passes: entry.plan.passes,
+            passes: plan.passes,
             fragments: counted(entry.counts.fragments.clone().unwrap_or_default()),
             invocations: entry.counts.invocations.clone().map(counted),
             gpu_ms: gpu_times(&entry.timed),
-            gpu_ms_per_pass: pass_times(&entry.timed, entry.plan.passes),
-            host: host_times(&entry.plain, self.build_ms(&entry.plan)),
-            bytes: self.structure_bytes(&entry.plan),
+            gpu_ms_per_pass: pass_times(&entry.timed, plan.passes),
+            host: host_times(&entry.plain, self.build_ms(plan)),
+            bytes: self.structure_bytes(plan),
             memory,
             ideal,
             error,
             device,
             driver,
             self_check: self.checked.filter(|_| !on_cpu).map(|c| c.check.words()).unwrap_or_default(),
-            left_out: entry
-                .plan
+            left_out: plan
                 .left_out
                 .iter()
                 .map(|l| LeftOutRecord { what: l.what.clone(), why: l.why.clone() })
                 .collect(),
-            plan: entry.plan.lines(),
+            plan: plan.lines(),
             notes: self.notes(&entry),
-            warnings: warnings(&entry.scene, &entry.plan, &entry.picture),
-            texture: TextureRecord::of(&entry.plan),
+            warnings: warnings(scene, plan, &entry.picture),
+            texture: TextureRecord::of(plan),
             orbit: None,
-            effect: entry.scene.effect.as_deref().map(EffectRecord::of),
+            effect: scene.effect.as_deref().map(EffectRecord::of),
             saved: None,
-            settings: entry.scene.settings.clone(),
+            auto: auto.clone(),
+            settings: scene.settings.clone(),
         };
         let verdict = self.checked.zip(form).and_then(|(c, form)| c.check.forms.get(&form));
         let trusted = !matches!(verdict, Some(Verdict::Wrong(_)));
-        let method = entry.plan.method;
+        let method = plan.method;
         Ok(Measured {
             method,
             run,
@@ -266,23 +278,24 @@ impl<'a> Runner<'a> {
     }
 
     fn notes(&self, entry: &Entry) -> Vec<String> {
-        let mut notes = plan::notes(&entry.scene);
+        let mut notes = plan::notes(&entry.planned.scene);
+        notes.extend(entry.planned.auto.iter().flat_map(AutoRecord::sentences));
         if let Some(check) = self.checked.map(|c| &c.check).filter(|_| entry.frame.is_some()) {
             if let Some(why) = &check.statistics {
                 notes.push(format!("shader invocations are not given: {why}"));
             }
-            if let Some(form) = entry.plan.form
+            if let Some(form) = entry.planned.plan.form
                 && let Some(Verdict::Wrong(what)) = check.forms.get(&form)
             {
                 notes.push(format!("the self-check of {} failed on this device: {what}", form.name()));
             }
         }
         let robust = self.checked.is_some_and(|checked| checked.device.used.robust);
-        notes.extend(entry.scene.effect.as_deref().map(|effect| with_effect(effect, robust)));
+        notes.extend(entry.planned.scene.effect.as_deref().map(|effect| with_effect(effect, robust)));
         notes.extend(parts_between_layers(&entry.counts));
-        notes.extend(FragmentKind::of(entry.plan.method.name).and_then(FragmentKind::words).map(str::to_owned));
-        if entry.plan.method.skips_blocks() {
-            let first = entry.scene.settings.method.block_first;
+        notes.extend(FragmentKind::of(entry.planned.plan.method.name).and_then(FragmentKind::words).map(str::to_owned));
+        if entry.planned.plan.method.skips_blocks() {
+            let first = entry.planned.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };
             notes.push(format!("blocks are tested {order}"));
         }
@@ -302,7 +315,7 @@ impl<'a> Runner<'a> {
     }
 
     fn memory(&self, entry: &Entry) -> BTreeMap<String, u64> {
-        let there = self.resident.iter().flat_map(|resident| resident.bytes(&entry.plan));
+        let there = self.resident.iter().flat_map(|resident| resident.bytes(&entry.planned.plan));
         let shared = there.filter(|_| entry.frame.is_some());
         let own = entry.frame.iter().flat_map(GpuFrame::bytes);
         let mut memory = BTreeMap::new();
@@ -338,9 +351,10 @@ fn parts_between_layers(run: &FrameRun) -> Option<String> {
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 
-fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
+fn prepare_cpu(planned: Planned) -> Result<Entry> {
+    let Planned { scene, plan, .. } = &planned;
     let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
-    let frame = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
+    let frame = cpu::run(scene, plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
     let run = FrameRun {
         frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
         cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,
@@ -348,7 +362,7 @@ fn prepare_cpu(scene: Scene, plan: Plan) -> Result<Entry> {
         ..FrameRun::default()
     };
     let picture = single(&frame, scene.settings.image.size)?;
-    Ok(Entry { scene, plan, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
+    Ok(Entry { planned, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
 }
 
 pub(crate) fn no_device() -> Error {

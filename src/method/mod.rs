@@ -82,8 +82,11 @@ impl Method {
     }
 }
 
-/// The method of that name; none where there is none.
+/// The method of that name; none where there is none. Where nothing has chosen for `auto` it is the thesis' own.
 pub fn find(name: MethodName) -> Option<&'static Method> {
+    if name.is_auto() {
+        return Some(&NN_OMNI);
+    }
     METHODS.into_iter().find(|method| method.name == name.name())
 }
 
@@ -102,12 +105,12 @@ pub fn takes(name: MethodName, scene: &Scene) -> bool {
     find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
-/// The names of all methods, in their order.
-const NAMES: [&str; METHODS.len()] = {
-    let mut names = [""; METHODS.len()];
+/// The names of all methods, in their order, behind that of the choice among them.
+const NAMES: [&str; METHODS.len() + 1] = {
+    let mut names = [MethodName::AUTO.name(); METHODS.len() + 1];
     let mut i = 0;
-    while i < names.len() {
-        names[i] = METHODS[i].name;
+    while i < METHODS.len() {
+        names[i + 1] = METHODS[i].name;
         i += 1;
     }
     names
@@ -124,8 +127,9 @@ impl FromStr for MethodName {
     type Err = String;
 
     fn from_str(name: &str) -> std::result::Result<Self, String> {
+        let auto = (name == Self::AUTO.name()).then_some(Self::AUTO);
         let row = METHODS.iter().find(|method| method.name == name);
-        row.map(|method| method.name()).ok_or_else(|| format!("is not one of {}", NAMES.join(", ")))
+        auto.or_else(|| row.map(|method| method.name())).ok_or_else(|| format!("is not one of {}", NAMES.join(", ")))
     }
 }
 
@@ -138,10 +142,4 @@ pub fn papers_form(name: MethodName) -> Option<Form> {
 /// The forms that a method has on a device; none for one that culls nothing there.
 pub fn forms(name: MethodName) -> Vec<Form> {
     find(name).map_or_else(Vec::new, |method| (method.forms)())
-}
-
-impl Default for MethodName {
-    fn default() -> Self {
-        NN_OMNI.name()
-    }
 }

@@ -11,7 +11,7 @@ use crate::part::steps::Steps;
 use crate::pass::layer;
 use crate::pass::termination::termination;
 use crate::scene::Scene;
-use crate::scene::settings::{Distance, Gradients, Last};
+use crate::scene::settings::{Distance, Gradients, Last, SliceCut};
 use crate::scene::slices::Stack;
 
 /// Slices back to front.
@@ -141,12 +141,26 @@ fn takes(scene: &Scene) -> Result<()> {
         ));
     }
     match scene.last() {
-        Last::Full => Ok(()),
+        Last::Full => cut_where_asked(scene),
         Last::Partial | Last::None => Err(Error::usage(
             method,
             "has no last segment of a ray: every slice stands for the way to the next one",
             "use --last full, or a ray caster",
         )),
+    }
+}
+
+/// Planes are cut by the host or by the vertex shader, spheres by the host.
+fn cut_where_asked(scene: &Scene) -> Result<()> {
+    let method = &scene.settings.method;
+    let stack = super::find(method.name).and_then(Method::stack);
+    match (method.slice_cut, stack) {
+        (SliceCut::Device, Some(Stack::Shells)) => Err(Error::usage(
+            "--slice-cut device",
+            format!("{} has spheres, which the vertex shader does not cut", method.name),
+            "use --slice-cut host, or --method slices-3d",
+        )),
+        _ => Ok(()),
     }
 }
 

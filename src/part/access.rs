@@ -19,6 +19,8 @@ pub enum Usage {
     DepthAnew,
     /// Read by the fragment shader.
     Sampled,
+    /// Read by the vertex shader.
+    Placing,
     Vertices,
     CopySource,
     CopyTarget,
@@ -89,7 +91,7 @@ impl Usage {
             Self::DepthTest => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             Self::CopySource => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             Self::CopyTarget => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-            Self::Sampled | Self::Vertices | Self::ComputeRead | Self::ComputeWrite | Self::Upload => {
+            Self::Sampled | Self::Placing | Self::Vertices | Self::ComputeRead | Self::ComputeWrite | Self::Upload => {
                 vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL
             }
         }
@@ -111,6 +113,7 @@ impl Usage {
             }
             Self::DepthTest => (depth_tests, A::DEPTH_STENCIL_ATTACHMENT_READ),
             Self::Sampled => (S::FRAGMENT_SHADER, A::SHADER_READ),
+            Self::Placing => (S::VERTEX_SHADER, A::SHADER_READ),
             Self::Vertices => (S::VERTEX_ATTRIBUTE_INPUT, A::VERTEX_ATTRIBUTE_READ),
             Self::CopySource => (S::COPY, A::TRANSFER_READ),
             Self::CopyTarget => (S::COPY | S::CLEAR, A::TRANSFER_WRITE),

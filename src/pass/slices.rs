@@ -2,24 +2,24 @@
 
 use super::{constants, cull};
 use crate::feature;
-use crate::geometry::SLICES;
+use crate::geometry::{SLICES, SLICES_CUT};
 use crate::part::access::Usage;
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Group, Step};
 use crate::resource;
-use crate::scene::settings::Cull;
+use crate::scene::settings::{Cull, SliceCut};
 use crate::twin;
 
 /// The slices of main pass `pass`, culled by `culled` = (how, greatest stored depth), or run for every fragment.
 pub fn slices(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
-    let mut accesses = vec![
-        Usage::Vertices.of(resource::SLICE_CORNERS),
-        Usage::Sampled.of(resource::FRAME),
-        Usage::Sampled.of(resource::SLICES),
-    ];
+    let on_device = context.scene.settings.method.slice_cut == SliceCut::Device;
+    let geometry = if on_device { &SLICES_CUT } else { &SLICES };
+    let mut accesses = vec![Usage::Vertices.of(geometry.vertices)];
+    accesses.extend(on_device.then(|| Usage::Placing.of(resource::SLICE_CUT)));
+    accesses.extend([resource::FRAME, resource::SLICES].map(|resource| Usage::Sampled.of(resource)));
     accesses.extend(feature::values(context));
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
-    let mut draw = Draw::plain(&SLICES, "slices.frag", twin::slices::slices);
+    let mut draw = Draw::plain(geometry, "slices.frag", twin::slices::slices);
     draw.specialize([constants::projection(context), constants::slice_surface(context)]);
     if context.view.stack_axis().is_some() {
         draw.define(["STACK"]);

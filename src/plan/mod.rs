@@ -136,6 +136,25 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
     row.check(Form { cull, mark }).map(Some)
 }
 
+/// Whether the method of a scene draws it, and what it asks for goes together.
+///
+/// # Errors
+/// When it does not, with what to do.
+pub fn check(scene: &Scene) -> Result<()> {
+    crate::truth::preintegrated::check(scene)?;
+    (method::of(scene.settings.method.name)?.takes)(scene)?;
+    feature::layers::check(scene)?;
+    feature::surface::check(scene)?;
+    feature::lights::check(scene)?;
+    feature::light_paths::check(scene)?;
+    feature::clip_volume::check(scene)?;
+    feature::environment::check(scene)?;
+    feature::effect::check(scene)?;
+    feature::refraction::check(scene)?;
+    feature::backdrop::check(scene)?;
+    feature::gradients::check(scene)
+}
+
 /// Plans the frame of a scene in the given form, for a device of which nothing is known.
 ///
 /// # Errors
@@ -150,19 +169,8 @@ pub fn plan(scene: &Scene, form: Option<Form>) -> Result<Plan> {
 /// When the camera is not one, the view needs more main passes than can be, or the scene cannot be classified as it asks
 /// for.
 pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
-    crate::truth::preintegrated::check(scene)?;
+    check(scene)?;
     let method = method::of(scene.settings.method.name)?;
-    (method.takes)(scene)?;
-    feature::layers::check(scene)?;
-    feature::surface::check(scene)?;
-    feature::lights::check(scene)?;
-    feature::light_paths::check(scene)?;
-    feature::clip_volume::check(scene)?;
-    feature::environment::check(scene)?;
-    feature::effect::check(scene)?;
-    feature::refraction::check(scene)?;
-    feature::backdrop::check(scene)?;
-    feature::gradients::check(scene)?;
     let view = View::new(scene)?;
     let view = match method.stack() {
         Some(stack) => {

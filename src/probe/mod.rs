@@ -8,12 +8,13 @@
 //! 2. [`rule`]: what each fragment has to leave behind, the one definition of right.
 //! 3. [`rig`]: draws a case on a device. [`correct`]: what it leaves against the rule.
 //! 4. [`measure`]: times and counts. [`statistics`], [`decide`]: from these to a verdict.
-//! 5. [`run`]: all of it for a device. [`record`]: what came out, as it is kept.
+//! 5. [`run`]: all of it for a device. [`record`]: what came out, as it is kept; [`known`]: what came out before.
 
 pub mod case;
 pub mod correct;
 pub mod decide;
 pub mod depth;
+pub mod known;
 pub mod marks;
 pub mod measure;
 pub mod pattern;

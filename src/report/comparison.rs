@@ -8,7 +8,7 @@ use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::{Clock, CountsRecord, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
-use crate::scene::settings::PartialSegments;
+use crate::scene::settings::{PartialSegments, SamplingSettings};
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
 pub const BASELINE: &str = "rc-block";
@@ -39,16 +39,26 @@ pub fn groups(runs: &[Run]) -> Vec<RunGroup<'_>> {
 pub fn comparable(a: &Run, b: &Run) -> bool {
     let (s, t) = (&a.settings, &b.settings);
     (&a.scene, &a.view, &a.device, &a.driver) == (&b.scene, &b.view, &b.device, &b.driver)
-        && (&s.volume, &s.transfer, &s.camera, &s.image, &s.projection, &s.sampling)
-            == (&t.volume, &t.transfer, &t.camera, &t.image, &t.projection, &t.sampling)
+        && (&s.volume, &s.transfer, &s.camera, &s.image, &s.projection, sampling_asked(a))
+            == (&t.volume, &t.transfer, &t.camera, &t.image, &t.projection, sampling_asked(b))
         && (&s.meshes, &s.clips, s.layers.most) == (&t.meshes, &t.clips, t.layers.most)
         && (&s.surface, &s.lights, &s.shading) == (&t.surface, &t.lights, &t.shading)
         && (&s.environment, &s.effects, &a.effect) == (&t.environment, &t.effects, &b.effect)
 }
 
+/// Sampling as it was asked for, where `auto` has chosen another M.
+fn sampling_asked(run: &Run) -> SamplingSettings {
+    let sampling = run.settings.sampling.clone();
+    let asked = run.auto.as_ref().map_or(sampling.samples_per_pass, |auto| auto.samples_per_pass);
+    SamplingSettings { samples_per_pass: asked, ..sampling }
+}
+
 /// The method with the switches that change its counts.
 pub fn label(run: &Run) -> String {
     let mut label = run.method.clone();
+    if run.auto.is_some() {
+        label = format!("auto: {label} (M = {})", run.settings.sampling.samples_per_pass);
+    }
     if run.method == BASELINE && run.settings.method.block_first {
         label.push_str(" (block first)");
     }
@@ -107,7 +117,7 @@ impl<'a> RunGroup<'a> {
 
     fn pick(&self, method: &str, preferred: impl Fn(&Run) -> bool) -> Option<&'a Run> {
         let all = || self.runs.iter().map(|(_, run)| *run).filter(|run| run.method == method);
-        all().find(|run| preferred(run)).or_else(|| all().next())
+        all().find(|run| run.auto.is_none() && preferred(run)).or_else(|| all().next())
     }
 
     /// Lower bounds of the main fragments, each once; more than one where methods differ in what they may skip.

@@ -2,10 +2,11 @@
 //!
 //! 1. [`number`]: numbers as a reader wants them.
 //! 2. [`comparison`]: runs of one scene side by side, with `rc-block` as the measure of the others.
-//! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`], [`mod@branching`]: what the runs come to, in sentences.
+//! 3. [`cost`]: how what is saved depends on what a sample costs. [`claim`], [`mod@branching`], [`choice`]: what the runs come to, in sentences.
 //! 4. [`table`]: rows under columns, as text, CSV and HTML. [`html`]: a page and its pieces. [`plot`]: plots as SVG.
 
 pub mod branching;
+pub mod choice;
 pub mod claim;
 pub mod comparison;
 pub mod cost;
@@ -15,4 +16,5 @@ pub mod plot;
 pub mod table;
 
 pub use branching::branching;
+pub use choice::choices;
 pub use claim::{claims, verdict};

@@ -1,11 +1,13 @@
 //! What belongs to one frame: its box, its view, and what it draws into.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use ash::vk;
 
 use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::settings::{Accumulate, DepthFormat, Formats};
+use crate::scene::slices::Slices;
 use crate::shared;
 use crate::vulkan::texel_bytes;
 
@@ -56,6 +58,35 @@ static SLICE_CORNERS_INFO: ResourceInfo = ResourceInfo {
         slices.map_or_else(Cow::default, |slices| {
             bytemuck::cast_slice(&slices.polygons(facts.scene).corners).to_vec().into()
         })
+    }),
+};
+
+/// Numbers of slices and of corners, of slices that the vertex shader cuts.
+pub const SLICE_NUMBERS: Resource = Resource::new(&SLICE_NUMBERS_INFO);
+static SLICE_NUMBERS_INFO: ResourceInfo = ResourceInfo {
+    name: "slice_numbers",
+    holds: "number of the slice and of its corner, of triangles in the order of drawing",
+    kind: ResourceKind::Vertices(|facts, _| {
+        let corners = |slices: &Arc<Slices>| size_of::<[f32; 2]>() * slices.numbers_in_all() as usize;
+        facts.view.slices.as_ref().map_or(0, corners) as u64
+    }),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let slices = facts.view.slices.as_ref();
+        slices.map_or_else(Cow::default, |slices| bytemuck::cast_slice(&slices.numbers()).to_vec().into())
+    }),
+};
+
+/// What the vertex shader cuts slices by.
+pub const SLICE_CUT: Resource = Resource::new(&SLICE_CUT_INFO);
+static SLICE_CUT_INFO: ResourceInfo = ResourceInfo {
+    name: "slice_cut",
+    holds: "the box, planes and the way to clip space, `SliceCut` of slices_cut.vert",
+    kind: ResourceKind::Uniform(|_, _| size_of::<shared::SliceCut>() as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let cut = facts.view.slices.as_ref().and_then(|slices| slices.cut_planes(facts.scene));
+        cut.iter().flat_map(|planes| bytemuck::bytes_of(&shared::SliceCut::new(planes)).to_vec()).collect()
     }),
 };
 

@@ -18,7 +18,8 @@ pub mod texels;
 pub use clip_volume::{CLIP_VOLUME, CLIP_VOLUME_PLACE};
 pub use environment::{ENVIRONMENT, ENVIRONMENT_PLACE};
 pub use frame::{
-    ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, SLICE_CORNERS, SLICES, STORED,
+    ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, SLICE_CORNERS, SLICE_CUT,
+    SLICE_NUMBERS, SLICES, STORED,
 };
 pub use gradients::{GRADIENT_TEXELS, GRADIENTS, gradient_bytes, gradients};
 pub use layers::{
@@ -35,10 +36,12 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 57] = [
+pub const RESOURCES: [Resource; 59] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
+    SLICE_NUMBERS,
+    SLICE_CUT,
     SLICES,
     CLIP_PLANES,
     ENTRY,

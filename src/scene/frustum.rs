@@ -5,7 +5,7 @@ use super::camera::Basis;
 use crate::error::Result;
 use crate::math::polyhedron::HalfSpace;
 use crate::math::ray::{Lens, ViewRays};
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// The view frustum is clipped this much wider than the picture, so that its sides never show; what is left
 /// stays within what every rasteriser handles.
@@ -67,6 +67,14 @@ impl Frustum {
         let (x, y) = (arm.dot(self.basis.right) / self.half[0], -arm.dot(self.basis.up) / self.half[1]);
         let w = if self.rays.parallel() { 1.0 } else { arm.dot(self.basis.forward) };
         [x, y, w].map(|c| c as f32)
+    }
+
+    /// Rows that lead from a place, with 1 behind its coordinates, to clip coordinates x, y (down) and w.
+    pub fn clip_rows(&self) -> [DVec4; 3] {
+        let Basis { right, up, forward } = self.basis;
+        let row = |way: DVec3| way.extend(-way.dot(self.eye));
+        let w = if self.rays.parallel() { DVec4::W } else { row(forward) };
+        [row(right / self.half[0]), row(-up / self.half[1]), w]
     }
 
     /// The length of the longest direction of a ray in the picture, each with component 1 along the view direction.

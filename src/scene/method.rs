@@ -15,9 +15,23 @@ impl MethodName {
         Self(name)
     }
 
+    /// What is not a method: one is to be chosen for the scene.
+    pub const AUTO: Self = Self("auto");
+
     /// The name as a text.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         self.0
+    }
+
+    /// Whether a method is to be chosen for the scene.
+    pub fn is_auto(self) -> bool {
+        self == Self::AUTO
+    }
+}
+
+impl Default for MethodName {
+    fn default() -> Self {
+        Self::AUTO
     }
 }
 

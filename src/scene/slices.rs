@@ -7,9 +7,11 @@ use glam::DVec3;
 
 use super::Scene;
 use super::frustum::Frustum;
+use super::slice_polygons::SlicePolygons;
 use crate::error::Result;
-use crate::math::polyhedron::{HalfSpace, Polyhedron};
-use crate::math::ray::{Lens, ViewRay, ViewRays};
+use crate::math::ray::{ViewRay, ViewRays};
+
+pub use super::slice_polygons::CutPlanes;
 
 /// How slices lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -38,10 +40,13 @@ pub enum SliceSurface {
 pub const SLACK: f64 = 1.0 / (1 << 16) as f64;
 
 /// Polygons are wider than what they show by so many pixels, so that no rasteriser misses a pixel; shaders drop the rest.
-const MARGIN: f64 = 2.0;
+pub(super) const MARGIN: f64 = 2.0;
 
 /// What f64 may take from a number of slices.
 const ROUNDING: f64 = 1e-9;
+
+/// Corners of the four triangles of a plane in a box, which has six corners at the most.
+const CORNERS_OF_PLANE: u32 = 12;
 
 /// Slices at the most; more are refused.
 pub const MOST: u32 = 1 << 17;
@@ -60,32 +65,6 @@ pub struct Slices {
     pub of_pass: Option<u32>,
     /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
     polygons: OnceLock<SlicePolygons>,
-}
-
-/// What shows of slices.
-#[derive(Clone, Debug, Default)]
-pub struct SlicePolygons {
-    /// Clip coordinates x, y and w of the corners of triangles, three each, with the number of their slice; in the order of drawing.
-    pub corners: Vec<[f32; 4]>,
-    /// Where the corners of each slice begin, and where those of the last one end, by the place of the slice in that order.
-    begins: Vec<u32>,
-}
-
-impl SlicePolygons {
-    fn new(scene: &Scene, slices: &Slices) -> Result<Self> {
-        let cutter = Cutter::new(scene)?;
-        let mut polygons = Self { corners: Vec::new(), begins: vec![0] };
-        for place in 0..slices.count {
-            let slice = if slices.of_pass.is_some() { place } else { slices.count - 1 - place };
-            let triangles = cutter.triangles(slices, slice);
-            polygons.corners.extend(triangles.into_iter().map(|corner| {
-                let [x, y, w] = cutter.frustum.corner(corner);
-                [x, y, w, slice as f32]
-            }));
-            polygons.begins.push(polygons.corners.len() as u32);
-        }
-        Ok(polygons)
-    }
 }
 
 impl Slices {
@@ -146,12 +125,45 @@ impl Slices {
 
     /// The corners that are drawn in a pass.
     pub fn range(&self, scene: &Scene, pass: u32) -> Range<u32> {
-        let begins = &self.polygons(scene).begins;
-        let begin = |slice: u32| begins.get(slice.min(self.count) as usize).copied().unwrap_or_default();
+        let [first, end] = self.places_in(pass);
+        self.polygons(scene).between(first, end)
+    }
+
+    /// The places of the first slice of a pass and one past that of its last one, in the order of drawing.
+    fn places_in(&self, pass: u32) -> [u32; 2] {
         match self.of_pass {
-            None => 0..begin(self.count),
-            Some(slices) => begin(pass.saturating_mul(slices))..begin((pass + 1).saturating_mul(slices)),
+            None => [0, self.count],
+            Some(slices) => [pass, pass + 1].map(|pass| pass.saturating_mul(slices).min(self.count)),
         }
+    }
+
+    /// What the vertex shader needs to cut the slices of a scene, the one that they were made for; none of spheres.
+    pub fn cut_planes(&self, scene: &Scene) -> Option<CutPlanes> {
+        CutPlanes::new(scene, self).ok().flatten()
+    }
+
+    /// Corners of triangles that the vertex shader makes of a slice.
+    fn corners_of_slice(&self) -> u32 {
+        let sides = if matches!(self.surface, SliceSurface::Axis(_)) { 2 } else { 1 };
+        sides * CORNERS_OF_PLANE
+    }
+
+    /// Numbers of slices and of their corners, in the order of drawing, where the vertex shader cuts them.
+    pub fn numbers(&self) -> Vec<[f32; 2]> {
+        let slice = |place: u32| if self.of_pass.is_some() { place } else { self.count - 1 - place };
+        let of = |place: u32| (0..self.corners_of_slice()).map(move |corner| [slice(place) as f32, corner as f32]);
+        (0..self.count).flat_map(of).collect()
+    }
+
+    /// How many of these there are.
+    pub fn numbers_in_all(&self) -> u32 {
+        self.count * self.corners_of_slice()
+    }
+
+    /// Which of these are of a pass.
+    pub fn numbers_in(&self, pass: u32) -> Range<u32> {
+        let [first, end] = self.places_in(pass).map(|place| place * self.corners_of_slice());
+        first..end
     }
 
     /// The slices of a pass, in the order of drawing.
@@ -241,97 +253,4 @@ pub fn within(scene: &Scene, place: DVec3, slack: f64) -> f64 {
     let faces = 0.5 - (place / scene.field.extent()).abs();
     let planes = scene.clip_planes().iter().map(|plane| plane.height(place));
     planes.fold(faces.min_element(), f64::min) + slack
-}
-
-/// Cuts slices to what a view shows of them.
-struct Cutter {
-    frustum: Frustum,
-    /// Where everything lies that shows, with a margin.
-    spaces: Vec<HalfSpace>,
-    /// Half of the sides of a box around the volume and its margin.
-    half: DVec3,
-}
-
-impl Cutter {
-    fn new(scene: &Scene) -> Result<Self> {
-        let frustum = Frustum::new(scene)?;
-        let (rays, half) = (&frustum.rays, 0.5 * scene.field.extent());
-        // Pixels are largest far away.
-        let deepest = if rays.parallel() { 1.0 } else { rays.deepest(-half, half) };
-        let margin = SLACK + MARGIN * deepest * rays.right.length().max(rays.down.length());
-        let face = |i: usize| {
-            let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-            HalfSpace { normal: sign * DVec3::AXES[i / 2], distance: -half[i / 2] }
-        };
-        let grown = |space: HalfSpace| HalfSpace { distance: space.distance - margin * space.normal.length(), ..space };
-        let kept = (0..6).map(face).chain(scene.clip_planes().iter().copied()).map(grown);
-        // Of a slice at the near plane nothing is to be cut off.
-        let near = HalfSpace { distance: frustum.near().distance - SLACK, ..frustum.near() };
-        let spaces = kept.chain([near]).chain(frustum.sides()).collect();
-        Ok(Self { frustum, spaces, half: half + margin })
-    }
-
-    /// The corners of triangles that cover what shows of a slice.
-    fn triangles(&self, slices: &Slices, slice: u32) -> Vec<DVec3> {
-        let by = f64::from(slice) * slices.spacing;
-        let (rays, forward) = (&self.frustum.rays, self.frustum.basis.forward);
-        match slices.surface {
-            SliceSurface::Depth => {
-                let distance = forward.dot(self.frustum.eye) + slices.first[0] + by;
-                self.polygon(HalfSpace { normal: forward, distance })
-            }
-            SliceSurface::Distance => self.shell(slices.first[0] + by),
-            SliceSurface::Axis(axis) => {
-                // In perspective rays go up above the eye and down below it.
-                let goes = |sign: f64, at: f64| match rays.lens {
-                    Lens::Orthographic => sign * rays.base[axis] > 0.0,
-                    Lens::Perspective => sign * (at - rays.origin[axis]) > 0.0,
-                };
-                let planes = [(1.0, slices.first[0] + by), (-1.0, slices.first[1] - by)];
-                let seen = planes.into_iter().filter(|(sign, at)| goes(*sign, *at));
-                seen.flat_map(|(_, at)| self.polygon(HalfSpace { normal: DVec3::AXES[axis], distance: at })).collect()
-            }
-        }
-    }
-
-    /// What shows of a plane, whose normal is a unit vector.
-    fn polygon(&self, plane: HalfSpace) -> Vec<DVec3> {
-        // More than the way between any two places of the box.
-        let reach = 4.0 * (1.0 + self.half.length());
-        let middle = plane.normal * plane.distance;
-        let u = plane.normal.any_orthonormal_vector();
-        let v = plane.normal.cross(u);
-        let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let square = square.map(|(a, b)| middle + reach * (a * u + b * v)).to_vec();
-        let corners = self.spaces.iter().fold(square, |corners, space| clipped(&corners, *space));
-        (1..corners.len().saturating_sub(1)).flat_map(|i| [0, i, i + 1].map(|c| corners[c])).collect()
-    }
-
-    /// The front of the part of the volume that lies as deep as some place of a sphere about the eye: what shows of it, and more.
-    fn shell(&self, distance: f64) -> Vec<DVec3> {
-        let (eye, forward) = (self.frustum.eye, self.frustum.basis.forward);
-        let least = distance / self.frustum.longest_direction();
-        let near = HalfSpace { normal: forward, distance: forward.dot(eye) + least };
-        let far = HalfSpace { normal: -forward, distance: -forward.dot(eye) - distance };
-        let enters = |space: &HalfSpace| self.frustum.enters(space);
-        let solid = Polyhedron::cuboid(self.half, enters);
-        let spaces = self.spaces.iter().chain([&near, &far]);
-        spaces.fold(solid, |solid, space| solid.clipped(*space, Some(enters(space)))).triangles(true)
-    }
-}
-
-/// What of a convex polygon lies in a half space.
-fn clipped(corners: &[DVec3], space: HalfSpace) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (over_a, over_b) = (space.height(a), space.height(b));
-        if over_a >= 0.0 {
-            kept.push(a);
-        }
-        if (over_a >= 0.0) != (over_b >= 0.0) {
-            kept.push(a + over_a / (over_a - over_b) * (b - a));
-        }
-    }
-    kept
 }

@@ -17,7 +17,7 @@ pub use planes::ClipPlane;
 pub use polygons::{Material, Placement, Triangle};
 pub use refraction::index_pieces;
 pub use slice::Slice;
-pub use slices::Slices;
+pub use slices::{SliceCut, Slices};
 pub use surface::{SurfaceLevel, light_rows, surface_levels};
 
 use bytemuck::{Pod, Zeroable};

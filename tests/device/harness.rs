@@ -105,10 +105,10 @@ pub fn other_half() -> bool {
 const SHARE: usize = 2;
 
 /// One in so many that a driver takes where others do more of everything.
-const LEAST_SHARE: usize = 8;
+const LEAST_SHARE: usize = 12;
 
 /// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every other one, by `turn` from
-/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every eighth. One at
+/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every twelfth. One at
 /// least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();

@@ -47,6 +47,8 @@ fn one_fragment_more_in_one_frame_of_an_orbit_is_found() {
             frame_ms: 1.0,
             cpu_ms: 1.0,
             build_ms: 0.0,
+            stack: None,
+            change: None,
         };
         changed(|results| results.runs[1].orbit = Some(vec![frame(5), frame(main)]))
     };

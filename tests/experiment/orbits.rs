@@ -18,6 +18,8 @@ fn frame(frame: usize, structure: &str, age: Option<i64>, main: u64) -> OrbitFra
         frame_ms: 2.0 + frame as f64,
         cpu_ms: 4.0,
         build_ms: 0.5,
+        stack: None,
+        change: None,
     }
 }
 

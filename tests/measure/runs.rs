@@ -61,6 +61,7 @@ pub fn run(method: &str, main: &[u64], intermediate: &[u64]) -> Run {
         warnings: Vec::new(),
         orbit: None,
         effect: None,
+        auto: None,
         saved: None,
         settings: Settings::default(),
     }

@@ -10,7 +10,7 @@ use crate::probe::Probe;
 use crate::report::comparison::groups;
 use crate::report::cost::{Sweep, extra_fetches, least_cost};
 use crate::report::html::{Html, Intro, Pictures, escape};
-use crate::report::{branching, claims, verdict};
+use crate::report::{branching, choices, claims, verdict};
 
 const METHOD: &str = include_str!("method.html");
 
@@ -25,6 +25,7 @@ pub fn page(results: &Results, probe: Option<&Probe>, pictures: Pictures) -> Res
     let known = results.runs.iter().any(|run| run.saved.as_ref().is_some_and(|saved| saved.time.is_some()));
     sentences.insert(if known { 0 } else { sentences.len() }, verdict(&groups));
     sentences.extend(branching(&groups));
+    sentences.extend(choices(&groups));
     let mut intro = Intro::new(sentences, &results.provenance);
     devices(&mut intro, results);
     let mut page = Html::page("Depthleap bench", &intro);

@@ -17,6 +17,7 @@ use crate::part::form::Form;
 use crate::part::rows::Method;
 use crate::provenance::Provenance;
 use crate::read;
+use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodName, MethodSettings, Settings};
 
 /// Differences are shown so many times as large: one of 1/255 is a grey that the eye sees.
@@ -27,6 +28,8 @@ pub struct BenchJob {
     /// Each with its name.
     pub scenes: Vec<(String, Settings)>,
     pub methods: Vec<MethodName>,
+    /// Whether methods that do not draw a scene are left out of it; else they are refused.
+    pub where_drawn: bool,
     /// Every form of culling and marking that the device has, instead of the scene's.
     pub all_forms: bool,
     /// Sides of cells for near-neighbor skipping; those of the scene where there are none.
@@ -55,13 +58,13 @@ impl BenchJob {
                 opened = Some((host.open)()?);
             }
             let runner = Runner::new(opened.as_ref(), scene, name.clone());
-            runner.check(&self.variants(opened.as_ref(), settings))?;
+            runner.check(&self.variants(opened.as_ref(), runner.scene()))?;
         }
         let effort = Effort { warmups: self.warmups, repeats: self.repeats, reference: self.reference };
         let mut measured = Vec::new();
         for (name, settings) in &self.scenes {
-            let methods = self.variants(opened.as_ref(), settings);
             let mut runner = Runner::new(opened.as_ref(), read::scene(settings)?, name.clone());
+            let methods = self.variants(opened.as_ref(), runner.scene());
             let mut here = runner.measure(&methods, effort, host.say)?;
             if let Some(count) = self.orbit {
                 orbits(&mut runner, &mut here, count, host.say)?;
@@ -85,10 +88,26 @@ impl BenchJob {
         costs
     }
 
+    /// `auto` for one scene: an orbit is a view that moves, for so many frames.
+    fn chosen_freely(&self, settings: &Settings) -> MethodSettings {
+        let base = MethodSettings { name: MethodName::AUTO, ..settings.method.clone() };
+        match self.orbit.and_then(|count| u32::try_from(count).ok()) {
+            Some(frames) => MethodSettings { frames, moving: true, ..base },
+            None => base,
+        }
+    }
+
     /// The methods of one scene, in every form that is asked for.
-    fn variants(&self, checked: Option<&Checked>, settings: &Settings) -> Vec<MethodSettings> {
-        let mut variants = Vec::new();
+    fn variants(&self, checked: Option<&Checked>, scene: &Scene) -> Vec<MethodSettings> {
+        let (mut variants, settings) = (Vec::new(), &scene.settings);
         for &name in &self.methods {
+            if name.is_auto() {
+                variants.push(self.chosen_freely(settings));
+                continue;
+            }
+            if self.where_drawn && !method::takes(name, scene) {
+                continue;
+            }
             let forms: Vec<Form> = match self.all_forms {
                 false => Vec::new(),
                 true => method::forms(name).into_iter().filter(|form| available(checked, *form)).collect(),

@@ -5,11 +5,12 @@ use std::collections::BTreeSet;
 use crate::error::Result;
 use crate::experiment::orbit::Summary;
 use crate::measure::record::{OrbitFrame, PictureRecord, Run};
+use crate::report::choice::weighed;
 use crate::report::comparison::{self, RunGroup, label};
 use crate::report::cost::Sweep;
 use crate::report::html::{Html, Pictures, escape};
 use crate::report::number::{bytes, milliseconds, thousands};
-use crate::report::plot::{cost_svg, fragments_svg, orbit_svg, times_svg};
+use crate::report::plot::{changes_svg, cost_svg, fragments_svg, orbit_svg, times_svg};
 use crate::report::table::{Column, Table};
 use crate::scene::texture::Within;
 
@@ -28,6 +29,7 @@ pub fn section(
     warnings(page, group);
     pictures(page, group, records, kept);
     page.table(&comparison::table(group));
+    choice(page, group);
     if let Some(svg) = fragments_svg(group)? {
         page.plot(
             &svg,
@@ -63,11 +65,27 @@ pub fn section(
         );
         orbits(page, group);
     }
+    if let Some(svg) = changes_svg(group)? {
+        page.plot(
+            &svg,
+            &format!("Change from frame to frame of an orbit, {}", group.first().scene),
+            "How far each picture of the orbit is from the one before, root mean square over pixels and channels. Rings: slices come \
+             from another stack of textures, and the picture pops.",
+        );
+    }
     for (_, run) in &group.runs {
         page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
     }
     page.raw("</section>\n");
     Ok(())
+}
+
+/// What `auto` chose, and why.
+fn choice(page: &mut Html, group: &RunGroup) {
+    for auto in group.runs.iter().filter_map(|(_, run)| run.auto.as_ref()) {
+        page.list(&auto.sentences());
+        page.folded("auto: what was weighed", |page| page.table(&weighed(auto)));
+    }
 }
 
 /// What may make the pictures mislead, each thing once.

@@ -1,7 +1,7 @@
 //! An orbit in a few numbers.
 
 use crate::measure::Statistics;
-use crate::measure::record::OrbitFrame;
+use crate::measure::record::{ChangeRecord, OrbitFrame};
 use crate::report::number::{milliseconds, thousands};
 
 /// An orbit in a few numbers.
@@ -18,6 +18,46 @@ pub struct Summary {
     pub frame: Statistics,
     pub cpu: Statistics,
     pub build: Statistics,
+    /// What neighbouring pictures differ by where the stack of slices changes between them, and elsewhere; none where nothing does.
+    pub popping: Option<Popping>,
+}
+
+/// The greatest changes between neighbouring pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Popping {
+    /// Of pictures of different stacks, and how many pairs of those there are.
+    pub at_stacks: ChangeRecord,
+    pub stacks: usize,
+    /// Of all others.
+    pub elsewhere: ChangeRecord,
+}
+
+impl Popping {
+    /// None where no stack changes, or everything does.
+    fn of(frames: &[OrbitFrame]) -> Option<Self> {
+        let changes = |stacks: bool| {
+            let pairs = frames.windows(2).filter(move |pair| changes_stack(pair) == stacks);
+            pairs.filter_map(|pair| pair[1].change)
+        };
+        let greatest = |stacks: bool| {
+            changes(stacks).reduce(|a, b| ChangeRecord { largest: a.largest.max(b.largest), rms: a.rms.max(b.rms) })
+        };
+        Some(Self { at_stacks: greatest(true)?, stacks: changes(true).count(), elsewhere: greatest(false)? })
+    }
+
+    fn words(&self) -> String {
+        let Self { at_stacks: at, stacks, elsewhere } = self;
+        format!(
+            "popping: where the stack changes ({stacks} times) neighbouring pictures differ by up to {:.4} (rms {:.5}), elsewhere by up \
+             to {:.4} (rms {:.5})",
+            at.largest, at.rms, elsewhere.largest, elsewhere.rms
+        )
+    }
+}
+
+/// Whether two neighbouring frames take their slices from different stacks.
+fn changes_stack(pair: &[OrbitFrame]) -> bool {
+    pair[0].stack != pair[1].stack
 }
 
 impl Summary {
@@ -46,6 +86,7 @@ impl Summary {
             frame: times(|frame| frame.frame_ms)?,
             cpu: times(|frame| frame.cpu_ms)?,
             build: times(|frame| frame.build_ms)?,
+            popping: Popping::of(frames),
         })
     }
 
@@ -58,8 +99,9 @@ impl Summary {
             format!("{} frames, {}", self.frames, read.join(", "))
         };
         let ages = self.ages.map(|[low, high]| format!(" (made {low} to {high} frames before)")).unwrap_or_default();
+        let popping = self.popping.iter().map(|popping| format!("; {}", popping.words())).collect::<String>();
         format!(
-            "{read}{ages}; main {}, intermediate {}; frame {} ms, CPU {} ms, slices of builds between frames {} ms",
+            "{read}{ages}; main {}, intermediate {}; frame {} ms, CPU {} ms, slices of builds between frames {} ms{popping}",
             thousands(self.main),
             thousands(self.intermediate),
             milliseconds(self.frame.median),

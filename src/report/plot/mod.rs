@@ -1,6 +1,7 @@
 //! Plots as SVG text. Colours are those of Okabe and Ito (Color Universal Design, 2008), which the common kinds of
 //! colour blindness tell apart; a plot never says by colour alone what its legend does not name.
 
+mod changes;
 mod cost;
 pub mod curves;
 mod fragments;
@@ -13,6 +14,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+pub use changes::changes_svg;
 pub use cost::cost_svg;
 pub use fragments::{fragments_svg, orbit_svg};
 pub use times::times_svg;
@@ -105,6 +107,7 @@ fn shape<'a>(area: &Area<'a>, (x, y): (i32, i32), i: usize) -> Drawn<'a> {
 }
 
 /// An axis with ticks at the given places. The first place may be the larger one: then it runs backwards.
+#[derive(Clone)]
 struct Ticks {
     range: Range<f64>,
     at: Vec<f64>,

@@ -15,7 +15,7 @@ section! {
     #[command(next_help_heading = "Method")]
     MethodSettings, MethodOptions, "method";
 
-    /// The render method
+    /// The render method; auto chooses one for the scene, with M, look-ups and cell where those are left as they are
     #[arg(skip)]
     name: MethodName = Default::default();
 
@@ -68,9 +68,32 @@ section! {
     )]
     between: bool = true;
 
+    /// slices-2d, slices-3d: who cuts slices to polygons
+    #[arg(long, value_name = "WHO")]
+    slice_cut: SliceCut = SliceCut::Host;
+
+    /// auto: frames that what is built for a method is to serve
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    frames: u32 = 1, within Limits::from_to(1.0, 1e6, "a number {}");
+
+    /// auto: the view changes from frame to frame, so that what is built for a view serves one
+    #[arg(long, num_args = 0, default_missing_value = "true")]
+    moving: bool = false;
+
     /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     lookups: u32 = 1, within Limits::from_to(1.0, 1024.0, "a number {}");
+}
+
+/// Who cuts slices to polygons.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum SliceCut {
+    /// The CPU: by the volume, clip planes and the picture.
+    #[default]
+    Host,
+    /// The vertex shader: by the volume.
+    Device,
 }
 
 /// Who builds the distances.

@@ -19,6 +19,7 @@ mod recorded;
 mod refraction;
 pub mod scenes;
 mod single_pass;
+mod slices;
 mod textures;
 mod truth;
 
@@ -38,6 +39,7 @@ pub fn tests() -> Vec<Test> {
         textures::tests(),
         projections::tests(),
         single_pass::tests(),
+        slices::tests(),
         effects::tests(),
         refraction::tests(),
     ]

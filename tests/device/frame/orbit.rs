@@ -8,7 +8,7 @@ use depthleap::measure::runner::{Checked, Runner};
 use depthleap::method::{self, METHODS};
 use depthleap::part::rows::{Method, Traversal};
 use depthleap::scene::settings::{Distance, MethodSettings};
-use depthleap::scene::{Camera, Scene};
+use depthleap::scene::{Camera, Scene, Settings};
 use depthleap::vulkan::Device;
 use glam::DVec3;
 
@@ -139,7 +139,10 @@ fn structures_are_built_beside_the_frames(device: &Arc<Device>) {
     let check = checked(device).clone();
     let checked = Checked { device: device.clone(), check, early_end: None };
     let mut runner = Runner::new(Some(&checked), scene.clone(), "jets".to_owned());
-    let settings = |name| MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
+    let settings = |name| {
+        let method = MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
+        Settings { method, ..scene.settings.clone() }
+    };
     let rule = around::orbit(&mut runner, &settings(method::RC_ERT.name()), FRAMES, &|_| {}).expect("an orbit");
     assert!(rule.frames.iter().all(|frame| frame.structure.is_none() && frame.build_ms == 0.0));
     for (name, own) in

@@ -79,7 +79,7 @@ fn rule(stage: &mut Stage, scene: &Scene, row: &'static Method) -> Vec<[f32; 4]>
 }
 
 /// Every method gives one picture, and the same counts in all of its forms: in every form from the first side, in one of them from
-/// the second.
+/// the second. Drivers share the methods of a scene.
 fn skipping(device: &Arc<Device>, scene: &Scene, turn: usize) {
     let mut stage = Stage::new(device);
     for (side, view) in share(VIEWS.into_iter().skip(1).take(2).enumerate(), turn) {
@@ -87,7 +87,7 @@ fn skipping(device: &Arc<Device>, scene: &Scene, turn: usize) {
         let mut rules = BTreeMap::new();
         // The matrix has slices under every projection.
         let here = |row: &&Method| row.on_device && row.stack().is_none() && (!row.loops() || loops_in_turn(row, turn));
-        for row in METHODS.into_iter().filter(here) {
+        for row in share(METHODS.into_iter().filter(here), turn + side) {
             let scene = by(&scene, row.name());
             let mut counts = None;
             let mut forms = forms_here(device, &scene);

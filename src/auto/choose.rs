@@ -1,0 +1,205 @@
+//! The choice: every method that draws the scene is weighed, the best of them with other settings besides.
+
+use cpu_time::ThreadTime;
+
+use super::cost::{build_ms, frame_ms, of_view};
+use super::look::Look;
+use super::record::{AutoRecord, Estimate};
+use super::work::{Tuning, WayOfWorking, Work};
+use crate::error::{Error, Result};
+use crate::method::{self, METHODS};
+use crate::part::rows::{Ahead, Method, Traversal};
+use crate::plan;
+use crate::scene::Scene;
+use crate::scene::settings::Settings;
+
+/// What is known of a device when a method is chosen for it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeviceFacts {
+    /// Why fragments that are culled are shaded all the same, as a probe of the device has found; none where they are not, or it was
+    /// not probed.
+    pub culls_late: Option<String>,
+    /// What the self-check found of the form that the papers' near-neighbor skipping has here; none without one.
+    pub form: Option<String>,
+}
+
+/// Settings of methods that are weighed where the scene leaves them as they are by default.
+const SAMPLES_PER_PASS: [u32; 3] = [8, 16, 32];
+const LOOKUPS: [u32; 2] = [1, 16];
+const CELLS: [u32; 3] = [1, 2, 4];
+
+/// The settings that a method is weighed with first, and how many methods are weighed with all of them.
+const FIRST: Tuning = Tuning { samples_per_pass: 32, lookups: 16, cell: 1, first: false };
+const REFINED: usize = 4;
+
+/// Puts a method and its settings in place of `auto`; other scenes stay as they are.
+///
+/// # Errors
+/// As [`choose`].
+pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecord>> {
+    if !scene.settings.method.name.is_auto() {
+        return Ok(None);
+    }
+    let begin = ThreadTime::now();
+    let mut record = choose(scene, facts)?;
+    let Estimate { method, samples_per_pass, lookups, cell, .. } = &record.chosen;
+    let settings = &mut scene.settings;
+    settings.sampling.samples_per_pass = *samples_per_pass;
+    (settings.method.lookups, settings.method.cell) = (*lookups, *cell);
+    settings.method.name =
+        method.parse().map_err(|e: String| Error::usage("--method auto", e, "please report this"))?;
+    record.look_ms = begin.elapsed().as_secs_f64() * MILLISECONDS;
+    Ok(Some(record))
+}
+
+/// In a second.
+const MILLISECONDS: f64 = 1e3;
+
+/// The method that draws `scene` in the least time, with its part of what is built for it.
+///
+/// # Errors
+/// When no method draws the scene, with the reason of the last one, or the camera is not one.
+pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
+    let look = Look::of(scene)?;
+    let mut refused = None;
+    let mut weighed: Vec<Estimate> = Vec::new();
+    let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
+    for method in METHODS.into_iter().filter(|method| method.on_device) {
+        match draws(method, scene) {
+            Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings))),
+            Err(e) => refused = Some(e),
+        }
+    }
+    by_time(&mut weighed);
+    for estimate in weighed.iter_mut().take(REFINED) {
+        let Some(method) = METHODS.into_iter().find(|method| method.name == estimate.method) else { continue };
+        let others = tunings(method, &scene.settings).into_iter().map(|tuning| scales.weigh(method, tuning));
+        let best = others.min_by(|a, b| a.ms.total_cmp(&b.ms));
+        *estimate = best.filter(|best| best.ms < estimate.ms).unwrap_or_else(|| estimate.clone());
+    }
+    by_time(&mut weighed);
+    let none = || Error::usage("--method auto", "finds no method that draws this scene", "name one");
+    let chosen = weighed.first().cloned().ok_or_else(|| refused.unwrap_or_else(none))?;
+    let method = &scene.settings.method;
+    Ok(AutoRecord {
+        samples_per_pass: scene.settings.sampling.samples_per_pass,
+        frames: method.frames,
+        moving: method.moving,
+        look_ms: 0.0,
+        reasons: reasons(&look, facts),
+        chosen,
+        runner_up: weighed.get(1).cloned(),
+        weighed,
+    })
+}
+
+/// Whether a method draws the scene.
+fn draws(method: &Method, scene: &Scene) -> Result<()> {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method.name();
+    plan::check(&scene)
+}
+
+fn by_time(weighed: &mut [Estimate]) {
+    weighed.sort_by(|a, b| a.ms.total_cmp(&b.ms));
+}
+
+/// What methods are weighed with.
+struct Scales<'a> {
+    scene: &'a Scene,
+    look: &'a Look,
+    facts: &'a DeviceFacts,
+    /// Many methods do the same work.
+    known: Vec<(WayOfWorking, Tuning, Work)>,
+}
+
+impl Scales<'_> {
+    fn work(&mut self, method: &Method, tuning: Tuning) -> Work {
+        let way = WayOfWorking::of(method);
+        if let Some((.., work)) = self.known.iter().find(|(known, of, _)| (*known, *of) == (way, tuning)) {
+            return *work;
+        }
+        let work = Work::of(method, tuning, self.look);
+        self.known.push((way, tuning, work));
+        work
+    }
+
+    /// What a method would take.
+    fn weigh(&mut self, method: &'static Method, tuning: Tuning) -> Estimate {
+        let mut work = self.work(method, tuning);
+        if self.facts.culls_late.is_some() && method.papers.is_some() {
+            work = work.with_late_culling(&self.work(&method::RC, tuning));
+        }
+        let looks_ahead = method.looks_ahead() && self.look.any_is_free;
+        let build_ms = if looks_ahead { build_ms(method, tuning, self.scene) } else { 0.0 };
+        let frame_ms = frame_ms(method, &work, self.scene);
+        let settings = &self.scene.settings.method;
+        let served = if settings.moving && of_view(method) { 1 } else { settings.frames };
+        Estimate {
+            method: method.name.to_owned(),
+            samples_per_pass: tuning.samples_per_pass,
+            lookups: tuning.lookups,
+            cell: tuning.cell,
+            frame_ms,
+            build_ms,
+            ms: frame_ms + build_ms / f64::from(served),
+            work,
+        }
+    }
+}
+
+/// The settings that a method is weighed with first: those of the scene, where it has some of its own.
+fn first(method: &Method, settings: &Settings) -> Tuning {
+    let asked = asked(settings);
+    let all = tunings(method, settings);
+    all.into_iter().find(|tuning| *tuning == Tuning { first: asked.first, ..FIRST }).unwrap_or(asked)
+}
+
+/// The settings of a scene.
+fn asked(settings: &Settings) -> Tuning {
+    Tuning {
+        samples_per_pass: settings.sampling.samples_per_pass,
+        lookups: settings.method.lookups,
+        cell: settings.method.cell,
+        first: settings.method.block_first,
+    }
+}
+
+/// The settings that a method is weighed with. What the scene has otherwise than by default stays as it is.
+fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
+    let (asked, default) = (asked(settings), asked(&Settings::default()));
+    let pick = |changes: bool, asked: u32, default: u32, all: &[u32]| match changes && asked == default {
+        true => all.to_vec(),
+        false => vec![asked],
+    };
+    let in_passes = matches!(method.traversal, Traversal::Passes) || method.stack().is_some() && method.ends_rays;
+    let ms = pick(in_passes, asked.samples_per_pass, default.samples_per_pass, &SAMPLES_PER_PASS);
+    let lookups = pick(method.marks_sections(), asked.lookups, default.lookups, &LOOKUPS);
+    let distances = matches!(method.ahead, Ahead::Distances(_));
+    let cells = pick(distances, asked.cell, default.cell, &CELLS);
+    let mut all = Vec::new();
+    for &samples_per_pass in &ms {
+        for &lookups in &lookups {
+            all.extend(cells.iter().map(|&cell| Tuning { samples_per_pass, lookups, cell, ..asked }));
+        }
+    }
+    all
+}
+
+/// What was found, in sentences.
+fn reasons(look: &Look, facts: &DeviceFacts) -> Vec<String> {
+    let rays = look.rays().count();
+    let mean =
+        |of: &dyn Fn(&super::LookRay) -> usize| look.rays().map(|ray| of(ray) as f64).sum::<f64>() / rays.max(1) as f64;
+    let samples = mean(&|ray| ray.samples as usize);
+    let (end, shown) = (mean(&|ray| ray.seen.len()), mean(&|ray| ray.seen.iter().filter(|seen| seen.shows).count()));
+    let mut reasons = vec![
+        format!("{:.1} % of the cells of a coarse grid have something that shows", 100.0 * look.coarse.open_share()),
+        format!(
+            "of {rays} rays each has {samples:.0} samples on average, {end:.0} before it ends, {shown:.0} of which show something",
+        ),
+    ];
+    reasons.extend(facts.form.iter().cloned());
+    reasons.extend(facts.culls_late.iter().map(|why| format!("culled fragments are shaded all the same: {why}")));
+    reasons
+}

@@ -1,0 +1,18 @@
+//! `auto`: which method draws a scene, and with which settings, from a look at the scene that takes a small part of a frame.
+//!
+//! [`Look`] casts a coarse grid of rays through the voxels, [`Work`] estimates from it what each method of
+//! `crate::method::METHODS` would do, [`cost`] turns that into time by constants that were measured, and [`choose`] takes the least.
+
+mod choose;
+mod coarse;
+mod cost;
+mod look;
+mod record;
+mod work;
+
+pub use choose::{DeviceFacts, choose, settle};
+pub use coarse::Coarse;
+pub use cost::{build_ms, frame_ms};
+pub use look::{Look, LookRay, Seen};
+pub use record::{AutoRecord, Estimate};
+pub use work::{Tuning, Work};
