@@ -51,7 +51,7 @@ fn a_look_at_a_constant_medium_sees_all_of_it() {
     assert_eq!(look.coarse.open_share(), 1.0);
     assert!(look.rays().all(|ray| ray.samples as usize == ray.seen.len() && ray.seen.iter().all(|s| s.shows)));
     let work = Work::of(&method::SINGLE_PASS_OMNI, TUNING, &look);
-    assert_eq!((work.samples, work.shown), (work.lookups, work.samples), "nothing is leapt over");
+    assert_eq!((work.lookups, work.shown), (0.0, work.samples), "nothing is looked up where nothing is free");
 }
 
 #[test]
@@ -70,7 +70,11 @@ fn a_look_at_nothing_sees_nothing() {
 #[test]
 fn a_look_finds_where_opaque_rays_end() {
     let end = |termination: f64| {
-        let scene = scene("constant:40", "linear", |s| s.sampling.termination = termination);
+        let scene = scene("constant:40", "ramp", |s| {
+            s.transfer.preset = None;
+            s.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.1], [1.0, 1.0, 1.0, 1.0, 0.1]]);
+            s.sampling.termination = termination;
+        });
         let rays = Look::of(&scene).unwrap();
         rays.rays().map(|ray| ray.seen.len()).sum::<usize>()
     };
@@ -85,7 +89,9 @@ fn estimates_are_near_what_frames_count() {
         for name in ["rc", "rc-ert", "rc-block", "nn-omni", "nn-directional", "nn-optimal", "single-pass", "slices-3d"]
         {
             let (work, counts) = (Work::of(row(name), TUNING, &look), counted(&scene, row(name)));
-            let near = |estimate: f64, count: f64| (0.5..2.0).contains(&((estimate + 1.0) / (count + 1.0)));
+            // What is leapt over hangs on where things are, of which a look sees some.
+            let within = if row(name).looks_ahead() { 4.0 } else { 1.5 };
+            let near = |estimate: f64, count: f64| (1.0 / within..within).contains(&((estimate + 1.0) / (count + 1.0)));
             assert!(near(work.main, sum(&counts.main)), "{volume}, {name}: {work:?} {}", sum(&counts.main));
             let intermediate = sum(&counts.intermediate);
             assert!(near(work.intermediate, intermediate), "{volume}, {name}: {work:?} {intermediate}");
@@ -160,7 +166,7 @@ fn late_culling_makes_culled_fragments_cost() {
         let record = choose(&scene, facts).unwrap();
         record.weighed.iter().find(|estimate| estimate.method == name).unwrap().frame_ms
     };
-    assert!(ms(&late, "nn-omni") > 2.0 * ms(&DeviceFacts::default(), "nn-omni"));
+    assert!(ms(&late, "nn-omni") > 1.2 * ms(&DeviceFacts::default(), "nn-omni"));
     assert_eq!(ms(&late, "single-pass"), ms(&DeviceFacts::default(), "single-pass"));
     assert!(choose(&scene, &late).unwrap().sentences().iter().any(|line| line.contains("as its probe found")));
 }

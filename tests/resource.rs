@@ -13,7 +13,9 @@ use depthleap::resource::{self, RESOURCES, order};
 use depthleap::scene::backdrop::{Backdrop, Pattern};
 use depthleap::scene::environment::Picture;
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction};
+use depthleap::scene::settings::{
+    Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction, SliceCut,
+};
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
 use depthleap::structure::Lookup;
@@ -62,7 +64,9 @@ fn scenes() -> Vec<Scene> {
     let mut bent = scene(|s| s.effects.refraction = Some(Refraction { points: vec![[0.2, 1.0], [0.8, 1.5]] }));
     let picture = Picture { size: [3, 2], texels: vec![[0.25, 0.5, 1.0]; 6] };
     bent.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.5 }));
+    let cut_there = scene(|s| s.method.slice_cut = SliceCut::Device);
     vec![
+        cut_there,
         aside,
         above,
         many(0.5),

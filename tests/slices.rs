@@ -5,7 +5,8 @@ use depthleap::method::{self, METHODS, RC};
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
-use depthleap::scene::settings::{Last, MethodName, Offset};
+use depthleap::scene::settings::{Last, MethodName, Offset, SliceCut};
+use depthleap::scene::slice_polygons::CutPlanes;
 use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack};
 use depthleap::scene::{Scene, Settings};
 
@@ -171,7 +172,7 @@ fn planes_for_the_vertex_shader_are_those_that_rays_meet() {
         let scene = scene(|s| s.camera.height = height);
         let (plan, _) = drawn(&scene, method.name());
         let slices = plan.view.slices.as_ref().unwrap();
-        let planes = slices.cut_planes(&scene).unwrap();
+        let planes = CutPlanes::new(&scene, slices).unwrap();
         let ray = plan.view.rays.of(11, 7);
         let place = ray.at(slices.depth(&ray, 3));
         let up = match slices.surface {
@@ -191,12 +192,12 @@ fn planes_for_the_vertex_shader_are_those_that_rays_meet() {
         assert_eq!(slices.numbers_in(0), 0..slices.numbers_in_all(), "all in one pass");
     }
     let (plan, _) = drawn(&scene(|_| {}), method::SLICES_SHELLS.name());
-    assert_eq!(plan.view.slices.as_ref().unwrap().cut_planes(&scene(|_| {})), None);
+    assert_eq!(CutPlanes::new(&scene(|_| {}), plan.view.slices.as_ref().unwrap()), None);
 }
 
 #[test]
 fn spheres_are_not_cut_by_the_vertex_shader() {
-    let scene = scene(|s| s.method.slice_cut = depthleap::scene::settings::SliceCut::Device);
+    let scene = scene(|s| s.method.slice_cut = SliceCut::Device);
     for row in slicers() {
         let refused = (row.takes)(&{
             let mut scene = scene.clone();

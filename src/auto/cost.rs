@@ -80,7 +80,8 @@ const FUSED: Costs = Costs {
 
 /// Slices, which are blended sample by sample.
 const SLICES: Costs = Costs {
-    pass: 0.0,
+    frame: 2.4e6,
+    pass: 3e5,
     pixel: 260.0,
     covered: 44.0,
     main: 49.0,

@@ -116,19 +116,19 @@ impl PlanCommand {
         let warnings = plan::warnings(&scene, &plan);
         let name = scene_name(&settings);
         output::say("note", &name, &plan::notes(&scene));
-        auto.iter().for_each(|auto| output::say("note", &name, &auto.sentences()));
         output::say("warning", &name, &warnings);
+        let text = text(&scene, &plan, auto.as_ref());
         if let Some(file) = &self.json {
             write_json(file, &to_json(&scene, &plan, auto, warnings))?;
             if is_standard_output(file) {
                 return Ok(());
             }
         }
-        write_standard_output(text(&scene, &plan).as_bytes())
+        write_standard_output(text.as_bytes())
     }
 }
 
-fn text(scene: &Scene, plan: &plan::Plan) -> String {
+fn text(scene: &Scene, plan: &plan::Plan, auto: Option<&AutoRecord>) -> String {
     let (settings, region) = (&scene.settings, plan.view.region);
     let form = plan.form.map_or_else(String::new, |f| format!(", {}", f.name()));
     let mut text = format!(
@@ -143,7 +143,8 @@ fn text(scene: &Scene, plan: &plan::Plan) -> String {
         settings.image.size[0],
         settings.image.size[1],
     );
-    for line in plan.lines() {
+    let chosen = auto.iter().flat_map(|auto| auto.sentences());
+    for line in chosen.chain(plan.lines()) {
         text.push_str(&line);
         text.push('\n');
     }

@@ -1,9 +1,12 @@
 //! Slices of the volume [Thesis §3.4].
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use crate::part::geometry::{Geometry, Hits};
 use crate::resource;
+use crate::scene::slices::Slices;
 
 /// The same, cut by the vertex shader.
 pub static SLICES_CUT: Geometry = Geometry {
@@ -22,6 +25,9 @@ pub static SLICES: Geometry = Geometry {
     vertex: "slices.vert",
     vertices: resource::SLICE_CORNERS,
     corner: vk::Format::R32G32B32A32_SFLOAT,
-    range: |scene, view, pass| view.slices.as_ref().map_or(0..0, |slices| slices.range(scene, pass)),
+    range: |scene, view, pass| {
+        let in_pass = |slices: &Arc<Slices>| view.slice_polygons(scene).in_pass(slices, pass);
+        view.slices.as_ref().map_or(0..0, in_pass)
+    },
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };

@@ -7,6 +7,7 @@ use ash::vk;
 
 use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::settings::{Accumulate, DepthFormat, Formats};
+use crate::scene::slice_polygons::CutPlanes;
 use crate::scene::slices::Slices;
 use crate::shared;
 use crate::vulkan::texel_bytes;
@@ -46,19 +47,10 @@ static SLICE_CORNERS_INFO: ResourceInfo = ResourceInfo {
     name: "slice_corners",
     holds: "corners of triangles in clip space, and the number of their slice; in the order of drawing",
     kind: ResourceKind::Vertices(|facts, _| {
-        facts
-            .view
-            .slices
-            .as_ref()
-            .map_or(0, |slices| size_of::<[f32; 4]>() * slices.polygons(facts.scene).corners.len()) as u64
+        (size_of::<[f32; 4]>() * facts.view.slice_polygons(facts.scene).corners.len()) as u64
     }),
     life: Life::Frame,
-    origin: Origin::Host(|facts| {
-        let slices = facts.view.slices.as_ref();
-        slices.map_or_else(Cow::default, |slices| {
-            bytemuck::cast_slice(&slices.polygons(facts.scene).corners).to_vec().into()
-        })
-    }),
+    origin: Origin::Host(|facts| bytemuck::cast_slice(&facts.view.slice_polygons(facts.scene).corners).into()),
 };
 
 /// Numbers of slices and of corners, of slices that the vertex shader cuts.
@@ -85,7 +77,7 @@ static SLICE_CUT_INFO: ResourceInfo = ResourceInfo {
     kind: ResourceKind::Uniform(|_, _| size_of::<shared::SliceCut>() as u64),
     life: Life::Frame,
     origin: Origin::Host(|facts| {
-        let cut = facts.view.slices.as_ref().and_then(|slices| slices.cut_planes(facts.scene));
+        let cut = facts.view.slices.as_ref().and_then(|slices| CutPlanes::new(facts.scene, slices));
         cut.iter().flat_map(|planes| bytemuck::bytes_of(&shared::SliceCut::new(planes)).to_vec()).collect()
     }),
 };

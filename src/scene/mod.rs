@@ -26,7 +26,7 @@ pub mod region;
 pub mod scenes;
 pub mod settings;
 mod sky;
-mod slice_polygons;
+pub mod slice_polygons;
 pub mod slices;
 pub mod surface;
 pub mod texture;

@@ -36,8 +36,9 @@ impl SlicePolygons {
         Ok(polygons)
     }
 
-    /// The corners of slices from the place of one of them to that of another, in the order of drawing.
-    pub(super) fn between(&self, first: u32, end: u32) -> Range<u32> {
+    /// The corners that are drawn in a pass of the slices that these are of.
+    pub fn in_pass(&self, slices: &Slices, pass: u32) -> Range<u32> {
+        let [first, end] = slices.places_in(pass);
         let last = self.begins.len().saturating_sub(1) as u32;
         let begin = |place: u32| self.begins.get(place.min(last) as usize).copied().unwrap_or_default();
         begin(first)..begin(end)
@@ -61,15 +62,14 @@ pub struct CutPlanes {
 }
 
 impl CutPlanes {
-    /// # Errors
-    /// When the camera is not one.
-    pub(super) fn new(scene: &Scene, slices: &Slices) -> Result<Option<Self>> {
-        let Cutter { frustum, half, .. } = Cutter::new(scene)?;
+    /// Those of the slices of a scene; none of spheres, or where the camera is not one.
+    pub fn new(scene: &Scene, slices: &Slices) -> Option<Self> {
+        let Cutter { frustum, half, .. } = Cutter::new(scene).ok()?;
         let (rays, forward) = (&frustum.rays, frustum.basis.forward);
         let everywhere = [f64::from(f32::MIN), f64::from(f32::MAX)];
         let nowhere = [everywhere[1], everywhere[0]];
         let (normal, first, beyond) = match slices.surface {
-            SliceSurface::Distance => return Ok(None),
+            SliceSurface::Distance => return None,
             SliceSurface::Depth => {
                 let first = forward.dot(frustum.eye) + slices.first[0];
                 (forward, [first; 2], [everywhere[0], nowhere[1]])
@@ -85,7 +85,7 @@ impl CutPlanes {
             }
         };
         let (clip, spacing) = (frustum.clip_rows(), slices.spacing);
-        Ok(Some(Self { reach: half, clip, normal, first, beyond, spacing }))
+        Some(Self { reach: half, clip, normal, first, beyond, spacing })
     }
 }
 

@@ -1,17 +1,13 @@
 //! Slices: planes or spheres that rays are sampled on, and their polygons [Thesis §3.4].
 
 use std::ops::Range;
-use std::sync::OnceLock;
 
 use glam::DVec3;
 
 use super::Scene;
 use super::frustum::Frustum;
-use super::slice_polygons::SlicePolygons;
 use crate::error::Result;
 use crate::math::ray::{ViewRay, ViewRays};
-
-pub use super::slice_polygons::CutPlanes;
 
 /// How slices lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,7 +48,7 @@ const CORNERS_OF_PLANE: u32 = 12;
 pub const MOST: u32 = 1 << 17;
 
 /// Slices of a view, numbered from the eye on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Slices {
     pub surface: SliceSurface,
     /// Where slice 0 lies, by its surface: for rays that go up along the axis, and for those that go down; the same for both of the
@@ -63,8 +59,6 @@ pub struct Slices {
     pub count: u32,
     /// Slices of a pass, which are drawn front to back; none where one pass draws all of them back to front.
     pub of_pass: Option<u32>,
-    /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
-    polygons: OnceLock<SlicePolygons>,
 }
 
 impl Slices {
@@ -115,31 +109,15 @@ impl Slices {
             }
         };
         let count = count.min(f64::from(u32::MAX)) as u32;
-        Self { surface, first, spacing, count, of_pass, polygons: OnceLock::new() }
-    }
-
-    /// What shows of them in a scene, which is the one that they were made for; nothing where its camera is not one.
-    pub fn polygons(&self, scene: &Scene) -> &SlicePolygons {
-        self.polygons.get_or_init(|| SlicePolygons::new(scene, self).unwrap_or_default())
-    }
-
-    /// The corners that are drawn in a pass.
-    pub fn range(&self, scene: &Scene, pass: u32) -> Range<u32> {
-        let [first, end] = self.places_in(pass);
-        self.polygons(scene).between(first, end)
+        Self { surface, first, spacing, count, of_pass }
     }
 
     /// The places of the first slice of a pass and one past that of its last one, in the order of drawing.
-    fn places_in(&self, pass: u32) -> [u32; 2] {
+    pub(super) fn places_in(&self, pass: u32) -> [u32; 2] {
         match self.of_pass {
             None => [0, self.count],
             Some(slices) => [pass, pass + 1].map(|pass| pass.saturating_mul(slices).min(self.count)),
         }
-    }
-
-    /// What the vertex shader needs to cut the slices of a scene, the one that they were made for; none of spheres.
-    pub fn cut_planes(&self, scene: &Scene) -> Option<CutPlanes> {
-        CutPlanes::new(scene, self).ok().flatten()
     }
 
     /// Corners of triangles that the vertex shader makes of a slice.

@@ -1,6 +1,6 @@
 //! A scene as its camera sees it: the box, cut by clip planes, as triangles, the pixels it covers, the longest ray.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
@@ -8,6 +8,7 @@ use super::Scene;
 use super::frustum::Frustum;
 use super::longest::longest_ray;
 use super::region::Region;
+use super::slice_polygons::SlicePolygons;
 use super::slices::{SliceSurface, Slices, Stack};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
@@ -27,6 +28,8 @@ pub struct View {
     pub longest_samples: u32,
     /// What slice renderers draw; none for others.
     pub slices: Option<Arc<Slices>>,
+    /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
+    slice_polygons: Arc<OnceLock<SlicePolygons>>,
 }
 
 impl View {
@@ -55,7 +58,7 @@ impl View {
             region => region,
         };
         let longest_samples = longest_samples(scene, &rays, region);
-        Ok(Self { size, rays, front, back, region, longest_samples, slices: None })
+        Ok(Self { size, rays, front, back, region, longest_samples, slices: None, slice_polygons: Arc::default() })
     }
 
     /// The axis of the stack of 2D textures that slices are taken from; none where they are taken from the volume, or there are none.
@@ -71,7 +74,14 @@ impl View {
     /// # Errors
     /// As [`View::new`].
     pub fn sliced(self, scene: &Scene, stack: Stack, of_pass: Option<u32>) -> Result<Self> {
-        Ok(Self { slices: Some(Arc::new(Slices::new(scene, stack, of_pass)?)), ..self })
+        let slices = Some(Arc::new(Slices::new(scene, stack, of_pass)?));
+        Ok(Self { slices, slice_polygons: Arc::default(), ..self })
+    }
+
+    /// What shows of the slices of the scene that this is a view of; nothing where there are none.
+    pub fn slice_polygons(&self, scene: &Scene) -> &SlicePolygons {
+        let cut = || self.slices.as_ref().and_then(|slices| SlicePolygons::new(scene, slices).ok());
+        self.slice_polygons.get_or_init(|| cut().unwrap_or_default())
     }
 }
 

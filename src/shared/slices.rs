@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 use super::double_float;
 use crate::scene::Scene;
-use crate::scene::slices::{self, CutPlanes};
+use crate::scene::slice_polygons::CutPlanes;
+use crate::scene::slices;
 
 /// `Slices` of `glsl/shared/slices.glsl`, where its members are explained.
 #[repr(C)]

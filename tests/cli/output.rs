@@ -90,16 +90,29 @@ fn a_built_in_scene_is_named_with_its_meshes() {
 #[test]
 fn plan_needs_no_device_and_its_json_says_the_steps() {
     let place = driverless();
-    let text = place.done("plan builtin:shells:16 --viewport 20x10 --json plan.json").text();
+    let text = place.done("plan builtin:shells:16 --viewport 20x10 --method nn-omni --json plan.json").text();
     let json = place.json("plan.json");
-    assert_eq!(json["method"], "nn-omni");
+    assert_eq!((&json["method"], &json["auto"]), (&"nn-omni".into(), &serde_json::Value::Null));
     let steps = json["steps"].as_array().unwrap();
     assert!(steps.iter().all(|s| text.contains(s["name"].as_str().unwrap())));
     assert_eq!(steps.iter().filter(|s| s["group"] == "main").count() as u64, json["passes"].as_u64().unwrap());
     // On standard output the JSON stands alone.
     let same: serde_json::Value =
-        serde_json::from_slice(&place.done("plan builtin:shells:16 --viewport 20x10 --json -").out).unwrap();
+        serde_json::from_slice(&place.done("plan builtin:shells:16 --viewport 20x10 --method nn-omni --json -").out)
+            .unwrap();
     assert_eq!(same, json);
+}
+
+#[test]
+fn plan_says_what_auto_chose_and_why() {
+    let place = driverless();
+    let text = place.done("plan builtin:shells:16 --viewport 40x30 --json plan.json").text();
+    let json = place.json("plan.json");
+    let chosen = json["method"].as_str().unwrap();
+    assert_eq!(json["auto"]["chosen"]["method"], chosen);
+    assert!(text.contains(&format!("auto chose {chosen}")) && text.contains("the runner-up is"), "{text}");
+    let named = place.done("plan builtin:shells:16 --viewport 40x30 --method auto").text();
+    assert_eq!(named, text);
 }
 
 #[test]

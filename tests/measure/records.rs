@@ -77,7 +77,7 @@ mod json {
         let expected = "version scene view method cull mark passes fragments invocations gpu_ms gpu_ms_per_pass \
                         frame_ms frame_ms_stats cpu_ms cpu_ms_stats record_ms record_ms_stats build_ms \
                         build_ms_stats bytes memory ideal error device driver self_check left_out plan notes orbit effect saved \
-                        settings texture warnings";
+                        settings texture warnings auto";
         let mut expected: Vec<&str> = expected.split_whitespace().collect();
         expected.sort_unstable();
         assert_eq!(keys(&value), expected);
