@@ -152,7 +152,8 @@ impl<'a> Runner<'a> {
     fn plan(&self, method: &MethodSettings) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let auto = settle(&mut scene, self.checked)?;
+        let on = self.checked.map(|checked| (&*checked.device, &checked.check));
+        let auto = settle(&mut scene, on)?;
         let name = scene.settings.method.name;
         let row = method::of(name)?;
         let plan = if !row.on_device {

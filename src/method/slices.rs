@@ -109,12 +109,15 @@ pub const SLICES_2D_OMNI: Method = by_distances(
     "slices-2d+ftb with near-neighbor skipping, distance in any direction",
 );
 
-pub const SLICES_SHELLS: Method = back_to_front(
-    Stack::Shells,
-    "slices-shells",
-    "Slices on spheres about the eye, which are as far from each other along every ray, back to front",
-    "Thesis §3.4.2",
-);
+pub const SLICES_SHELLS: Method = Method {
+    takes: takes_spheres,
+    ..back_to_front(
+        Stack::Shells,
+        "slices-shells",
+        "Slices on spheres about the eye, which are as far from each other along every ray, back to front",
+        "Thesis §3.4.2",
+    )
+};
 
 pub const SLICES_SHELLS_FTB: Method =
     front_to_back(SLICES_SHELLS, "slices-shells+ftb", "slices-shells front to back, with early ray termination");
@@ -141,7 +144,7 @@ fn takes(scene: &Scene) -> Result<()> {
         ));
     }
     match scene.last() {
-        Last::Full => cut_where_asked(scene),
+        Last::Full => Ok(()),
         Last::Partial | Last::None => Err(Error::usage(
             method,
             "has no last segment of a ray: every slice stands for the way to the next one",
@@ -150,17 +153,16 @@ fn takes(scene: &Scene) -> Result<()> {
     }
 }
 
-/// Planes are cut by the host or by the vertex shader, spheres by the host.
-fn cut_where_asked(scene: &Scene) -> Result<()> {
-    let method = &scene.settings.method;
-    let stack = super::find(method.name).and_then(Method::stack);
-    match (method.slice_cut, stack) {
-        (SliceCut::Device, Some(Stack::Shells)) => Err(Error::usage(
+/// Takes every scene that slices take and whose slices the host cuts: the vertex shader cuts no spheres.
+fn takes_spheres(scene: &Scene) -> Result<()> {
+    takes(scene)?;
+    match scene.settings.method.slice_cut {
+        SliceCut::Host => Ok(()),
+        SliceCut::Device => Err(Error::usage(
             "--slice-cut device",
-            format!("{} has spheres, which the vertex shader does not cut", method.name),
+            format!("{} has spheres, which the vertex shader does not cut", scene.settings.method.name),
             "use --slice-cut host, or --method slices-3d",
         )),
-        _ => Ok(()),
     }
 }
 
