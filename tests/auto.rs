@@ -8,7 +8,7 @@ use depthleap::method::{self, METHODS};
 use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
-use depthleap::scene::settings::MethodName;
+use depthleap::scene::settings::{Cull, MethodName};
 use depthleap::scene::{Scene, Settings};
 
 fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -191,4 +191,12 @@ fn the_name_is_read_where_a_method_may_be_chosen() {
     assert_eq!("auto".parse(), Ok(MethodName::AUTO));
     assert!(Settings::default().method.name.is_auto());
     assert_eq!(method::of(MethodName::AUTO).unwrap().name, "nn-omni", "where nothing has chosen");
+}
+
+#[test]
+fn methods_cull_as_they_are_asked_to() {
+    let scene = scene("jets:24", "ramp", |s| s.method.cull = Cull::Ztest);
+    let forms = |estimate: &depthleap::auto::Estimate| (row(&estimate.method).forms)();
+    let weighed = chosen(&scene).weighed;
+    assert!(!weighed.is_empty() && weighed.iter().all(|e| forms(e).iter().any(|form| form.cull == Cull::Ztest)));
 }

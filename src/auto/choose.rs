@@ -8,10 +8,11 @@ use super::record::{AutoRecord, Estimate};
 use super::work::{Tuning, WayOfWorking, Work};
 use crate::error::{Error, Result};
 use crate::method::{self, METHODS};
+use crate::part::form::Form;
 use crate::part::rows::{Ahead, Method, Traversal};
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::Settings;
+use crate::scene::settings::{Cull, Mark, MethodSettings, Settings};
 
 /// What is known of a device when a method is chosen for it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,7 +65,8 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     let mut refused = None;
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
-    for method in METHODS.into_iter().filter(|method| method.on_device) {
+    let asked = &scene.settings.method;
+    for method in METHODS.into_iter().filter(|method| method.on_device && culls_as_asked(method, asked)) {
         match draws(method, scene) {
             Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings))),
             Err(e) => refused = Some(e),
@@ -91,6 +93,14 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         runner_up: weighed.get(1).cloned(),
         weighed,
     })
+}
+
+/// Whether a method has the cull and mark that settings ask for; one that culls nothing has none.
+fn culls_as_asked(method: &Method, asked: &MethodSettings) -> bool {
+    let as_asked = |form: &Form| {
+        (asked.cull == Cull::Auto || form.cull == asked.cull) && (asked.mark == Mark::Auto || form.mark == asked.mark)
+    };
+    (asked.cull, asked.mark) == (Cull::Auto, Mark::Auto) || (method.forms)().iter().any(as_asked)
 }
 
 /// Whether a method draws the scene.

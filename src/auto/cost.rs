@@ -53,12 +53,12 @@ const LOOP: Costs = Costs {
 
 /// Main passes with intermediate ones between them.
 const PASSES: Costs = Costs {
-    frame: 0.0,
+    frame: 4e6,
     pass: 5.5e5,
     pixel: 300.0,
     covered: 3.6,
-    main: 85.0,
-    sample: SampleCosts { color: 10.0, preintegrated: 75.0, value: 6.0, surface: 12.0 },
+    main: 110.0,
+    sample: SampleCosts { color: 10.0, preintegrated: 75.0, value: 8.0, surface: 12.0 },
     intermediate: 125.0,
     block: 69.0,
     distance: 0.0,
@@ -71,7 +71,7 @@ const FUSED: Costs = Costs {
     pixel: 280.0,
     covered: 9.8,
     main: 140.0,
-    sample: SampleCosts { color: 12.0, preintegrated: 80.0, value: 8.0, surface: 12.0 },
+    sample: SampleCosts { color: 12.0, preintegrated: 80.0, value: 10.0, surface: 12.0 },
     intermediate: 100.0,
     block: 0.0,
     surface: [210.0, 340.0],

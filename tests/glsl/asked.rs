@@ -15,7 +15,7 @@ use depthleap::probe::{Case, rig};
 use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
-use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName};
+use depthleap::scene::settings::{Accumulate, Classification, Filter, MethodName, SliceCut};
 use depthleap::scene::slices::Stack;
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
@@ -111,6 +111,11 @@ fn made() -> Vec<(String, Plan)> {
             scene.settings.image.accumulate = accumulate;
             every_form(method, &scene, &format!("{accumulate:?}"));
         }
+    }
+    for method in METHODS.into_iter().filter(|method| method.stack().is_some_and(|stack| stack != Stack::Shells)) {
+        let mut scene = scene(method.name(), likes()[0]);
+        scene.settings.method.slice_cut = SliceCut::Device;
+        every_form(method, &scene, "cut by the vertex shader");
     }
     for (number, (name, scene)) in matrix::scenes().into_iter().enumerate() {
         for (view, scene) in matrix::views(&scene) {

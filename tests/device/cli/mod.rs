@@ -197,8 +197,8 @@ fn unknown_device(device: &Arc<Device>) {
 fn bounds_without_the_feature(device: &Arc<Device>) {
     let place = Place::new();
     for arguments in [
-        "render -o a.png --cull bounds",
-        "render -o a.png --mark fragdepth",
+        "render --method nn-omni -o a.png --cull bounds",
+        "render --method nn-omni -o a.png --mark fragdepth",
         "bench -o out --method nn-omni --cull bounds --mark copy",
     ] {
         place.refused(arguments, 4, &["--cull bounds", &device.info.name, "no depth bounds test", "--cull ztest"]);
@@ -208,7 +208,7 @@ fn bounds_without_the_feature(device: &Arc<Device>) {
 fn unknown_form(_: &Arc<Device>) {
     let place = Place::new();
     let parts = ["--cull ztest --mark fragdepth", "nn-omni has no such form", "ztest+copy"];
-    place.refused("render --cull ztest --mark fragdepth -o a.png", 2, &parts);
+    place.refused("render --method nn-omni --cull ztest --mark fragdepth -o a.png", 2, &parts);
 }
 
 fn failing_runs_change_nothing(_: &Arc<Device>) {
@@ -235,7 +235,7 @@ fn info_writes_json(device: &Arc<Device>) {
 }
 
 /// The keys of every run: those of DESIGN.md and what was added to them.
-const KEYS: &str = "build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver effect error fragments frame_ms \
+const KEYS: &str = "auto build_ms build_ms_stats bytes cpu_ms cpu_ms_stats cull device driver effect error fragments frame_ms \
                     frame_ms_stats gpu_ms gpu_ms_per_pass ideal invocations left_out mark memory method notes orbit passes plan \
                     record_ms record_ms_stats saved scene self_check settings texture version view warnings";
 
@@ -379,14 +379,15 @@ fn methods_agree_as_files(_: &Arc<Device>) {
 
 fn bounds_and_ztest_agree(_: &Arc<Device>) {
     let place = Place::new();
-    let picture = |cull: &str| place.done(&format!("render {SMALL} --cull {cull} --mark copy -o -.npy")).out;
+    let picture =
+        |cull: &str| place.done(&format!("render {SMALL} --method nn-omni --cull {cull} --mark copy -o -.npy")).out;
     assert_eq!(picture("bounds"), picture("ztest"));
 }
 
 fn early_ends_agree(_: &Arc<Device>) {
     let place = Place::new();
     let picture = |way: &str| {
-        let options = format!("--samples-per-pass 1 --early-end {way} -o {way}.npy --json {way}.json");
+        let options = format!("--method nn-omni --samples-per-pass 1 --early-end {way} -o {way}.npy --json {way}.json");
         place.done(&format!("render {SMALL} {options}"));
         (place.read(&format!("{way}.npy")), place.json(&format!("{way}.json"))["fragments"].clone())
     };
