@@ -2,7 +2,7 @@
 
 use cpu_time::ThreadTime;
 
-use super::cost::{build_ms, frame_ms, of_view};
+use super::cost::{build_ms, frame_ms, served};
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
 use super::work::{Tuning, WayOfWorking, Work};
@@ -144,7 +144,7 @@ impl Scales<'_> {
         let build_ms = if looks_ahead { build_ms(method, tuning, self.scene) } else { 0.0 };
         let frame_ms = frame_ms(method, &work, self.scene);
         let settings = &self.scene.settings.method;
-        let served = if settings.moving && of_view(method) { 1 } else { settings.frames };
+        let served = served(method, settings.frames, settings.moving);
         Estimate {
             method: method.name.to_owned(),
             samples_per_pass: tuning.samples_per_pass,

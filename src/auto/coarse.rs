@@ -2,6 +2,7 @@
 
 use crate::scene::Field;
 use crate::structure::blocks::BLOCK;
+use crate::structure::grid::OCTANTS;
 
 /// Cells along the longest side of the grid, at the most.
 const MOST_CELLS: usize = 24;
@@ -11,9 +12,6 @@ const LOOKED_AT: usize = 3;
 
 /// Distances are not told apart beyond so many cells.
 const FAR: u8 = u8::MAX;
-
-/// Octants that a ray may go into.
-const OCTANTS: usize = 8;
 
 /// The grid.
 #[derive(Clone, Debug)]

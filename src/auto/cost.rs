@@ -1,5 +1,5 @@
-//! What work costs: constants in nanoseconds of CPU time, measured on llvmpipe of Mesa 22.3 (`benches/results/lavapipe-22.3/auto.md`
-//! says how). Other devices have none of their own: what counts is the order of methods, and that is theirs where they spend their
+//! What work costs: constants in nanoseconds of CPU time, fitted to frames that were measured on llvmpipe of Mesa 22.3
+//! (`benches/results/lavapipe-22.3/auto.md` says how, and which of them were set by hand). Other devices have none of their own: what counts is the order of methods, and that is theirs where they spend their
 //! time alike.
 
 use super::work::{Tuning, Work};
@@ -92,7 +92,7 @@ const SLICES: Costs = Costs {
     ..PASSES
 };
 
-/// The part of a sample's colour that each further fetch takes.
+/// The part of a sample's colour that each further fetch is taken to cost, which was not measured.
 const FETCH_SHARE: f64 = 0.4;
 
 /// Fetches of a gradient in the shader: one on each side along each axis.
@@ -170,7 +170,8 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
         }
 }
 
-/// Whether what a method looks up is made for a view, so that another view needs it anew.
-pub fn of_view(method: &Method) -> bool {
-    matches!(method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone))
+/// How many of so many frames are served by what a method builds: all of them, or one, where it is made for a view that changes.
+pub fn served(method: &Method, frames: u32, moving: bool) -> u32 {
+    let for_a_view = matches!(method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone));
+    if moving && for_a_view { 1 } else { frames.max(1) }
 }

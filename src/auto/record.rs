@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cost::of_view;
+use super::cost::served;
 use super::work::Work;
 use crate::method::METHODS;
 
@@ -45,8 +45,8 @@ pub struct Estimate {
 impl AutoRecord {
     /// Frames that what a method builds was taken to serve.
     pub fn served(&self, method: &str) -> u32 {
-        let for_a_view = METHODS.iter().any(|row| row.name == method && of_view(row));
-        if self.moving && for_a_view { 1 } else { self.frames.max(1) }
+        let row = METHODS.into_iter().find(|row| row.name == method);
+        row.map_or(self.frames.max(1), |row| served(row, self.frames, self.moving))
     }
 
     /// The choice in sentences: what it is, the runner-up, and what was found.
@@ -63,7 +63,7 @@ impl AutoRecord {
 }
 
 impl Estimate {
-    /// `nn-omni (M = 32, 16 look-ups): 20 ms a frame and 500 ms to build, estimated`.
+    /// `nn-omni (M = 32, look-ups 16, cell 1): 20.0 ms a frame and 500 ms to build, estimated`.
     fn words(&self) -> String {
         let Self { method, samples_per_pass, lookups, cell, frame_ms, build_ms, .. } = self;
         let build = if *build_ms > 0.0 { format!(" and {build_ms:.0} ms to build") } else { String::new() };

@@ -16,6 +16,7 @@ mod frame_times;
 pub mod law;
 pub mod limits;
 pub mod measured;
+mod notes;
 pub mod picture;
 pub mod record;
 pub mod runner;

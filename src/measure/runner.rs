@@ -11,6 +11,7 @@ use super::frame_times::{gpu_times, host_times, pass_times};
 use super::law::law_of_skipping;
 use super::limits;
 use super::measured::Measured;
+use super::notes::{parts_between_layers, with_effect};
 use super::picture::Picture;
 use super::record::{CountsRecord, EffectRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
@@ -19,16 +20,15 @@ use super::warnings::warnings;
 use crate::auto::AutoRecord;
 use crate::error::{Error, Result};
 use crate::frame::{
-    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, LayerCounts, Measure, Resident, SelfCheck, Structures, Verdict, cpu,
-    plan_on,
+    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, plan_on,
 };
 use crate::method;
 use crate::part::form::Form;
 use crate::plan::{self, Plan};
 use crate::resource;
+use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodSettings, Settings};
 use crate::scene::texture::TextureChoice;
-use crate::scene::{Effect, Scene};
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -324,32 +324,6 @@ impl<'a> Runner<'a> {
         shared.chain(own).for_each(|(r, bytes)| *memory.entry(r.name().to_owned()).or_default() += bytes);
         memory
     }
-}
-
-/// What a reader of the numbers should know of an effect; `robust`: whether what shaders read is held within what is there.
-fn with_effect(effect: &Effect, robust: bool) -> String {
-    let access = if robust { "; the device checks what shaders read (robust access), which may take time" } else { "" };
-    format!(
-        "samples that show, or surfaces, go through the effect {}: its GLSL does not run in f64, so that there is no error against \
-         the reference{access}",
-        effect.words()
-    )
-}
-
-/// What each part of rays between layers of polygons has.
-fn parts_between_layers(run: &FrameRun) -> Option<String> {
-    let layers = &run.fragments.as_ref()?.layers;
-    let told = |(i, layer): (usize, &LayerCounts)| {
-        let place = if i == 0 { "in front".to_owned() } else { format!("behind layer {}", i - 1) };
-        let LayerCounts { pixels, main, intermediate } = layer;
-        let up_to = pixels.map_or_else(String::new, |pixels| format!(", up to {pixels} pixels of polygons"));
-        format!("{place} {main} main and {intermediate} intermediate{up_to}")
-    };
-    // Behind the last layer that a ray has there is nothing.
-    let anything = |layer: &LayerCounts| layer.main + layer.intermediate + layer.pixels.unwrap_or(0) > 0;
-    let last = layers.iter().rposition(anything);
-    let parts: Vec<String> = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().map(told).collect();
-    (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 
 fn prepare_cpu(planned: Planned) -> Result<Entry> {

@@ -1,15 +1,11 @@
 //! The frame rates of [KW03, Table 1]: slices, and ray casting without and with its accelerations.
 
-use super::{RateSet, RateTable, Renderer, seen_near, whole_file};
+use super::{NO_TERMINATION, RateSet, RateTable, Renderer, TERMINATION, seen_near, whole_file};
 use crate::method;
 use crate::scene::settings::{Last, Settings};
 
 /// M, "restricted to 8 due to hardware shader limitations" [KW03 §3].
 const SAMPLES_PER_PASS: u32 = 8;
-
-/// T of the main configuration, and of a sweep that ends no ray early.
-const TERMINATION: f64 = 0.95;
-const NO_TERMINATION: f64 = 1.0;
 
 /// One of the volumes of 256^3 voxels, but for its file.
 const CUBE: RateSet =

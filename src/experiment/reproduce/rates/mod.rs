@@ -19,7 +19,7 @@ pub use csv::rates_csv;
 pub use kw03::KW03;
 pub use rows::{Rate, RateLine, RateRatio, explained, rate, rate_lines, rate_verdicts};
 pub use run::{TimingPlan, effort, file_of, settings_of, time_rates, turned};
-pub use stegmaier::{NO_TERMINATION, STEGMAIER, TERMINATION};
+pub use stegmaier::STEGMAIER;
 pub(super) use tables::{absent_rates, present_rates, rates_sweep, rates_table};
 
 /// Every table of frame rates, in the order of reports.
@@ -104,6 +104,10 @@ impl RateTable {
         &self.renderers[self.base]
     }
 }
+
+/// T of frames whose rays end early, and of those whose rays do not.
+pub const TERMINATION: f64 = 0.95;
+pub const NO_TERMINATION: f64 = 1.0;
 
 /// The volume is the whole file.
 fn whole_file(settings: &mut Settings, path: PathBuf) {

@@ -5,15 +5,9 @@
 
 use std::path::PathBuf;
 
-use super::{RateSet, RateTable, Renderer, seen_near, whole_file};
+use super::{NO_TERMINATION, RateSet, RateTable, Renderer, TERMINATION, seen_near, whole_file};
 use crate::method;
 use crate::scene::settings::{Classification, ClipSettings, Last, Settings};
-
-/// T of frames whose rays end early.
-pub const TERMINATION: f64 = 0.95;
-
-/// T of frames whose rays do not.
-pub const NO_TERMINATION: f64 = 1.0;
 
 /// The place in the table's sets of the engine, the one whose volume is the paper's.
 const ENGINE: usize = 1;

@@ -1,0 +1,30 @@
+//! What a reader of the numbers should know, in sentences.
+
+use crate::frame::{FrameRun, LayerCounts};
+use crate::scene::Effect;
+
+/// What a reader of the numbers should know of an effect; `robust`: whether what shaders read is held within what is there.
+pub(super) fn with_effect(effect: &Effect, robust: bool) -> String {
+    let access = if robust { "; the device checks what shaders read (robust access), which may take time" } else { "" };
+    format!(
+        "samples that show, or surfaces, go through the effect {}: its GLSL does not run in f64, so that there is no error against \
+         the reference{access}",
+        effect.words()
+    )
+}
+
+/// What each part of rays between layers of polygons has.
+pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
+    let layers = &run.fragments.as_ref()?.layers;
+    let told = |(i, layer): (usize, &LayerCounts)| {
+        let place = if i == 0 { "in front".to_owned() } else { format!("behind layer {}", i - 1) };
+        let LayerCounts { pixels, main, intermediate } = layer;
+        let up_to = pixels.map_or_else(String::new, |pixels| format!(", up to {pixels} pixels of polygons"));
+        format!("{place} {main} main and {intermediate} intermediate{up_to}")
+    };
+    // Behind the last layer that a ray has there is nothing.
+    let anything = |layer: &LayerCounts| layer.main + layer.intermediate + layer.pixels.unwrap_or(0) > 0;
+    let last = layers.iter().rposition(anything);
+    let parts: Vec<String> = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().map(told).collect();
+    (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
+}
