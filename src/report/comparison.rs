@@ -56,8 +56,11 @@ fn sampling_asked(run: &Run) -> SamplingSettings {
 /// The method with the switches that change its counts.
 pub fn label(run: &Run) -> String {
     let mut label = run.method.clone();
-    if run.auto.is_some() {
-        label = format!("auto: {label} (M = {})", run.settings.sampling.samples_per_pass);
+    if let Some(auto) = &run.auto {
+        label = format!("auto: {label}");
+        if auto.samples_per_pass != run.settings.sampling.samples_per_pass {
+            let _ = write!(label, " (M = {})", run.settings.sampling.samples_per_pass);
+        }
     }
     if run.method == BASELINE && run.settings.method.block_first {
         label.push_str(" (block first)");

@@ -44,7 +44,7 @@ pub fn changes_svg(group: &RunGroup) -> Result<Option<String>> {
             .axis_style(INK)
             .label_style(ink(FONT_SIZE))
             .x_label_formatter(&|degrees| format!("{degrees:.0}"))
-            .y_label_formatter(&|rms| format!("{rms:.1e}"))
+            .y_label_formatter(&|rms| if *rms == 0.0 { "0".to_owned() } else { format!("{rms:.1e}") })
             .x_desc("degrees")
             .y_desc("rms change to the frame before")
             .axis_desc_style(ink(FONT_SIZE))

@@ -24,7 +24,7 @@ use crate::error::{Error, Result};
 /// Pixels; what a column of text is wide.
 const WIDTH: u32 = 900;
 /// Of the width, what the legend on the right takes.
-const LEGEND_WIDTH: u32 = 200;
+const LEGEND_WIDTH: u32 = 260;
 /// plotters writes 1/1.24 of a size, so this is a text of 13 pixels.
 const FONT_SIZE: u32 = 16;
 const FONT: &str = "sans-serif";
