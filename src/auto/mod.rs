@@ -1,7 +1,7 @@
 //! `auto`: which method draws a scene, and with which settings, from a look at the scene that takes a small part of a frame.
 //!
 //! [`Look`] casts a coarse grid of rays through the voxels, [`Work`] estimates from it what each method of
-//! `crate::method::METHODS` would do, [`cost`] turns that into time by constants that were measured, and [`choose`] takes the least.
+//! `crate::method::METHODS` would do, `cost` turns that into time by constants that were measured, and `choose` takes the least.
 
 mod choose;
 mod coarse;
