@@ -5,7 +5,7 @@ use depthleap::method::{self, METHODS, RC};
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
-use depthleap::scene::settings::{Last, MethodName, Offset, SliceCut};
+use depthleap::scene::settings::{Alpha, Last, MethodName, Offset, SliceCut};
 use depthleap::scene::slice_polygons::CutPlanes;
 use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack};
 use depthleap::scene::{Scene, Settings};
@@ -164,6 +164,35 @@ fn one_slice_and_many_are_drawn() {
     let (_, cast) = drawn(&many, RC.name());
     let off = apart(&frame, &cast);
     assert!(off < 1e-3 && frame.pixels.iter().any(|pixel| pixel[3] > 0.1), "{off:e} from rays as finely sampled");
+}
+
+/// How opaque the most opaque ray of a view becomes, and whether the plan of the method at a T asks rays whether they end.
+fn most_opaque_and_asked(method: &Method, termination: f64, change: impl Fn(&mut Settings)) -> (f64, bool) {
+    let scene = scene(|s| {
+        (s.transfer.preset, s.sampling.termination) = (Some("haze".to_owned()), termination);
+        change(s);
+    });
+    let (plan, frame) = drawn(&scene, method.name());
+    let opacities = frame.pixels.iter().map(|pixel| pixel[3]);
+    (opacities.fold(0.0, f64::max), plan.left_out.iter().all(|left| left.what != "early ends of rays"))
+}
+
+#[test]
+fn rays_on_slices_that_cannot_end_are_not_asked() {
+    let wide = |s: &mut Settings| s.camera.fov_y = 120.0;
+    let coarse = |s: &mut Settings| s.sampling.step = 3.0;
+    let as_they_stand = |s: &mut Settings| (s.sampling.alpha, s.sampling.step) = (Alpha::Paper, 2.0);
+    let changes: [&dyn Fn(&mut Settings); 4] = [&|_| {}, &wide, &coarse, &as_they_stand];
+    for method in slicers().filter(|method| method.ends_rays && !method.looks_ahead()) {
+        for (i, change) in changes.into_iter().enumerate() {
+            let (most, _) = most_opaque_and_asked(method, 1.0, change);
+            assert!(most > 0.02, "{} {i}: {most}", method.name);
+            assert!(most_opaque_and_asked(method, 0.999 * most, change).1, "{} {i}: one ends", method.name);
+        }
+        let (most, _) = most_opaque_and_asked(method, 1.0, |_| {});
+        let (same, asked) = most_opaque_and_asked(method, 1.5 * most, |_| {});
+        assert!(!asked && same == most, "{}: none comes above {} of {most}", method.name, 1.5 * most);
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What work costs: constants in nanoseconds of CPU time, fitted to frames that were measured on llvmpipe of Mesa 22.3
-//! (`benches/results/lavapipe-22.3/auto.md` says how, and which of them were set by hand). Other devices have none of their own: what counts is the order of methods, and that is theirs where they spend their
-//! time alike.
+//! (`benches/results/lavapipe-22.3/auto.md` says how, and which of them were set by hand). Other devices have none of their own: what
+//! counts is the order of methods, and that is theirs where they spend their time alike.
 
 use super::work::{Tuning, Work};
 use crate::part::rows::{Ahead, Method, Traversal};
@@ -92,6 +92,11 @@ const SLICES: Costs = Costs {
     ..PASSES
 };
 
+/// What a sample takes more for each time that a volume has twice the voxels of one that the first caches hold, and how many that
+/// one has: fewer of its samples find their voxels there.
+const SAMPLE_OF_TWICE: f64 = 1.0;
+const CACHED_VOXELS: f64 = (1 << 15) as f64;
+
 /// The part of a sample's colour that each further fetch is taken to cost, which was not measured.
 const FETCH_SHARE: f64 = 0.4;
 
@@ -107,7 +112,8 @@ pub fn frame_ms(method: &Method, work: &Work, scene: &Scene) -> f64 {
         Traversal::Slices(_) => &SLICES,
     };
     let [each, of_shown] = fetches(scene);
-    let sample = sample(&costs.sample, scene) + costs.sample.color * FETCH_SHARE * each;
+    let far = SAMPLE_OF_TWICE * (scene.field.values.len() as f64 / CACHED_VOXELS).log2().max(0.0);
+    let sample = sample(&costs.sample, scene) + far + costs.sample.color * FETCH_SHARE * each;
     let [surface_pixel, surface_main] = if scene.surface.is_some() { costs.surface } else { [0.0; 2] };
     let lookup = if method.skips_blocks() { costs.block } else { costs.distance };
     let parts = [

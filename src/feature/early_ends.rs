@@ -29,9 +29,7 @@ pub fn may_end(context: &Context) -> bool {
             Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
             // Polygons and effects add to the opacity as much as they like.
             Ends::Opaque if context.blends || context.has(&EFFECT) => context.scene.settings.sampling.termination < 1.0,
-            // Where slices are far from each other along a ray, each stands for many steps.
-            Ends::Opaque if context.method.stack().is_some() => context.scene.settings.sampling.termination < 1.0,
-            Ends::Opaque => comes_above(context.scene, context.view.longest_samples, context.passes),
+            Ends::Opaque => comes_above(context.scene, &Longest::of(context)),
             Ends::Reached => true,
             Ends::Never(_) => false,
         }
@@ -40,9 +38,33 @@ pub fn may_end(context: &Context) -> bool {
 /// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.
 const ROUNDING: f64 = 1e-6;
 
-/// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and the longest
-/// ray, rounding included.
-fn comes_above(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
+/// The most that any ray of a view gathers.
+struct Longest {
+    /// Samples.
+    samples: f64,
+    /// What all of them stand for together, in steps: as far as they go, the last one for a whole step.
+    steps: f64,
+    /// Colours blended with what the target holds.
+    blends: f64,
+}
+
+impl Longest {
+    fn of(context: &Context) -> Self {
+        let (scene, view) = (context.scene, context.view);
+        let along = f64::from(view.longest_samples.saturating_add(1));
+        let Some(slices) = &view.slices else {
+            return Self { samples: along, steps: along, blends: f64::from(context.passes) };
+        };
+        // From the first slice of a ray to its last one is no farther than the ray, and the last one stands for a stride.
+        let spacing = slices.spacing / (scene.settings.sampling.step * scene.field.finest());
+        let samples = along / spacing + 1.0;
+        Self { samples, steps: along + spacing * slices.longest_stride(&view.rays, view.size), blends: samples }
+    }
+}
+
+/// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and what the longest ray
+/// gathers, rounding included.
+fn comes_above(scene: &Scene, longest: &Longest) -> bool {
     let sampling = &scene.settings.sampling;
     // Opacities never exceed 1.
     if sampling.termination >= 1.0 {
@@ -51,13 +73,12 @@ fn comes_above(scene: &Scene, longest_samples: u32, passes: u32) -> bool {
     let [low, high] = scene.field.extremes().map(f64::from);
     let slack = scene.value_slack();
     let greatest = greatest_opacity(&scene.transfer, low - slack, high + slack);
-    let samples = f64::from(longest_samples.saturating_add(1));
     let clear = match sampling.alpha {
-        // As far as the samples go, the last one for a whole step.
-        Alpha::Exponential => (samples * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
-        Alpha::Paper => (samples * (-greatest).ln_1p()).exp(),
+        Alpha::Exponential => (longest.steps * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
+        Alpha::Paper => (longest.samples * (-greatest).ln_1p()).exp(),
     };
-    let rounding = f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * ROUNDING;
+    let rounding =
+        longest.blends * f64::from(blend_rounding(scene.settings.image.accumulate)) + longest.samples * ROUNDING;
     1.0 - clear + rounding > sampling.termination
 }
 

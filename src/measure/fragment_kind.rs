@@ -28,6 +28,16 @@ impl FragmentKind {
         })
     }
 
+    /// The word for so many of what it stands for.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Segment => "segments",
+            Self::Ray => "rays",
+            Self::Pixel => "invocations",
+            Self::Sample => "samples",
+        }
+    }
+
     /// What its counts are, where they are not those of segments.
     pub fn words(self) -> Option<&'static str> {
         match self {

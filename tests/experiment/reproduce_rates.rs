@@ -206,10 +206,13 @@ fn renderers_are_told_in_one_of_them_and_explained_by_fragments() {
     assert_eq!(early.fragments, Some([pixels, 0.5 * pixels]));
     // The head of one paper is not that of the other.
     assert_eq!(line(&lines, "Head", 512, "RC").ours, None);
-    let explained = explained(&KW03, &lines);
+    let found_of = |table: &'static RateTable| explained(table, &rate_lines(timed, table));
     let rule = "Aneurism 512^2, RC-a: 100.0 % of RC's main fragments and 0.50 intermediate ones for each of its own, in 33.3 % of \
-                its time";
-    assert_eq!(explained, [rule]);
+                RC's time";
+    assert_eq!(found_of(&KW03), [rule]);
+    // Samples are no part of rays.
+    let slices = found_of(&STEGMAIER);
+    assert!(slices[0].contains("1.00 samples for each of Raycasting's rays"), "{slices:?}");
     let verdicts = rate_verdicts(&KW03, &lines);
     assert!(verdicts.len() == 1 && verdicts[0].contains("Aneurism 512^2 by RC-a 300.0 %"), "{verdicts:?}");
 }

@@ -2,9 +2,10 @@
 //! picture pops.
 
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
 
-use super::fragments::legend;
-use super::{FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, svg};
+use super::fragments::{legend, legend_line};
+use super::{FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, ink_at, svg};
 use crate::error::Result;
 use crate::measure::record::OrbitFrame;
 use crate::report::comparison::{RunGroup, label};
@@ -52,13 +53,24 @@ pub fn changes_svg(group: &RunGroup) -> Result<Option<String>> {
         for (i, (_, frames)) in orbits.iter().enumerate() {
             let points = frames.iter().filter_map(|frame| Some((frame.turned, frame.change?.rms)));
             chart.draw_series(LineSeries::new(points, color(i).stroke_width(2)))?;
-            let pops = frames.windows(2).filter(|pair| pair[0].stack != pair[1].stack);
-            let rings = pops.filter_map(|pair| Some((pair[1].turned, pair[1].change?.rms)));
+            let rings = pops(frames).filter_map(|pair| Some((pair[1].turned, pair[1].change?.rms)));
             chart.draw_series(rings.map(|at| Circle::new(at, RING, INK.stroke_width(2))))?;
         }
-        legend(&key, &orbits.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>())
+        legend(&key, &orbits.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>())?;
+        if orbits.iter().any(|(_, frames)| pops(frames).next().is_some()) {
+            let y = legend_line(orbits.len());
+            key.draw(&Circle::new((22, y), RING, INK.stroke_width(2)))?;
+            let style = ink_at(FONT_SIZE, HPos::Left, VPos::Center);
+            key.draw(&Text::new("popping: another stack", (44, y), style))?;
+        }
+        Ok(())
     })
     .map(Some)
+}
+
+/// Neighbouring frames whose slices are of different stacks.
+fn pops(frames: &[OrbitFrame]) -> impl Iterator<Item = &[OrbitFrame]> {
+    frames.windows(2).filter(|pair| pair[0].stack != pair[1].stack)
 }
 
 /// An axis from 0 on, with ticks at 1, 2 or 5 times a power of ten.

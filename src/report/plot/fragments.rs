@@ -12,7 +12,9 @@ use crate::report::comparison::{RunGroup, label};
 use crate::report::number::thousands;
 
 const HEIGHT: u32 = 640;
+/// Pixels from line to line of a legend, and down to its first one.
 const LEGEND_LINE: i32 = 22;
+const LEGEND_TOP: i32 = 66;
 /// Radius of a mark.
 const MARK: i32 = 4;
 
@@ -171,11 +173,16 @@ fn pass_ticks(passes: usize) -> Vec<f64> {
     (0..passes).step_by(step).map(|p| p as f64).collect()
 }
 
+/// Where a line of a legend is, pixels from its top.
+pub(super) fn legend_line(i: usize) -> i32 {
+    LEGEND_TOP + LEGEND_LINE * i as i32
+}
+
 /// A line with its mark for each method.
 pub(super) fn legend<'a>(area: &Area<'a>, labels: &[String]) -> Drawn<'a> {
     area.draw(&Text::new("method", (8, 40), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
     for (i, label) in labels.iter().enumerate() {
-        let y = 66 + LEGEND_LINE * i as i32;
+        let y = legend_line(i);
         area.draw(&PathElement::new([(8, y), (36, y)], color(i).stroke_width(2)))?;
         mark(area, (22, y), i, MARK)?;
         area.draw(&Text::new(label.clone(), (44, y), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;

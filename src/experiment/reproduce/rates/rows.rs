@@ -4,6 +4,7 @@ use super::super::rows::{Finding, judged, sweep};
 use super::super::{ReproducedSet, TimedRecord, Variant};
 use super::{RateSet, RateTable, Renderer};
 use crate::measure::Run;
+use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::Clock;
 
 /// A data set in a viewport by one way of rendering.
@@ -183,18 +184,24 @@ pub fn explained(table: &RateTable, lines: &[RateLine]) -> Vec<String> {
             (other.set.name, other.size, other.renderer.name) == (line.set.name, line.size, base.name)
         };
         let ([main, intermediate], [whole, _]) = (line.fragments?, lines.iter().find(same)?.fragments?);
-        let share = 100.0 * main / whole;
+        let kind_of = |renderer: &Renderer| FragmentKind::of(renderer.method.name);
+        let (kind, base_kind) = (kind_of(line.renderer)?, kind_of(base)?);
+        // A share of what is of another kind would say nothing.
+        let drawn = match kind == base_kind {
+            true => format!("{:.1} % of {}'s main fragments", 100.0 * main / whole, base.name),
+            false => format!("{:.2} {} for each of {}'s {}", main / whole, kind.noun(), base.name, base_kind.noun()),
+        };
         let added = match intermediate > 0.0 {
             true => format!(" and {:.2} intermediate ones for each of its own", intermediate / main),
             false => String::new(),
         };
         let (name, rate) = (line.renderer.name, line.to_renderer.clock?);
         Some(format!(
-            "{} {}^2, {name}: {share:.1} % of {}'s main fragments{added}, in {:.1} % of its time",
+            "{} {}^2, {name}: {drawn}{added}, in {:.1} % of {}'s time",
             line.set.name,
             line.size,
-            base.name,
             100.0 / rate,
+            base.name,
         ))
     };
     lines.iter().filter(|line| line.renderer.name != base.name).filter_map(sentence).collect()

@@ -6,6 +6,7 @@ mod optical;
 mod planes;
 mod projection;
 mod sampling;
+mod slices;
 mod surfaces;
 mod transfer;
 mod traps;
@@ -13,6 +14,9 @@ mod values;
 mod views;
 
 use super::case::StabilityCase;
+use crate::method::METHODS;
+use crate::part::rows::Method;
+use crate::scene::settings::MethodName;
 
 /// Every case, by groups.
 pub fn battery() -> Vec<StabilityCase> {
@@ -25,6 +29,7 @@ pub fn battery() -> Vec<StabilityCase> {
         surfaces::cases(),
         family::cases(),
         sampling::cases(),
+        slices::cases(),
         depth::cases(),
         projection::cases(),
         traps::cases(),
@@ -32,4 +37,9 @@ pub fn battery() -> Vec<StabilityCase> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// The names of methods that are chosen by their rows.
+fn named(chosen: fn(&Method) -> bool) -> Vec<MethodName> {
+    METHODS.into_iter().filter(|method| chosen(method)).map(Method::name).collect()
 }

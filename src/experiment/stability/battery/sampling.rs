@@ -1,17 +1,12 @@
 //! Steps, passes and thresholds at their ends.
 
 use super::super::case::{COLOR, Expect, ROUNDING, StabilityCase, Tolerance};
+use super::named;
 use crate::math::opacity::corrected_opacity;
-use crate::method::METHODS;
 use crate::part::rows::Method;
-use crate::scene::settings::{Classification, Last, MethodName, Settings};
+use crate::scene::settings::{Classification, Last, Settings};
 
 const GROUP: &str = "sampling";
-
-/// The names of methods that are chosen by their rows.
-fn methods(chosen: fn(&Method) -> bool) -> Vec<MethodName> {
-    METHODS.into_iter().filter(|method| chosen(method)).map(Method::name).collect()
-}
 
 /// Thousands of samples.
 const MANY: Tolerance = Tolerance { absolute: 1e-6, relative: 3e-4, reason: "thousands of roundings to f32" };
@@ -30,7 +25,7 @@ pub fn cases() -> Vec<StabilityCase> {
             })
             .with(|s| s.camera.fov_y = 10.0)
             .expect(beer(opacity, samples), ROUNDING)
-            .by(&methods(Method::under_the_law))
+            .by(&named(Method::under_the_law))
     };
     vec![
         medium("steps of 1/64 voxel", &|s| (s.sampling.step, s.sampling.samples_per_pass) = (1.0 / 64.0, 256))
@@ -49,7 +44,7 @@ pub fn cases() -> Vec<StabilityCase> {
         // A loop holds the whole ray, whose passes nobody can force.
         medium("fewer passes than needed", &|s| s.sampling.passes = 3)
             .expect(beer(0.03, 12.0), ROUNDING)
-            .by(&methods(|method| !method.loops())),
+            .by(&named(|method| !method.loops())),
         medium("more passes than needed", &|s| s.sampling.passes = 40),
         medium("one sample a pass", &|s| s.sampling.samples_per_pass = 1),
         medium("10000 samples a pass", &|s| s.sampling.samples_per_pass = 10_000),
