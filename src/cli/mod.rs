@@ -12,6 +12,7 @@ mod probe;
 mod render;
 mod report;
 mod reproduce;
+mod shells;
 mod stability;
 
 use std::process::ExitCode;
@@ -48,6 +49,7 @@ const EXAMPLES: &str = "Examples:
   depthleap compare before after                         what differs between two results
   depthleap report out                                   the pages of a folder again, from its JSON
   depthleap plan fuel.nrrd --method rc-block             the passes, and what is left out
+  depthleap shells fuel.nrrd --count 6 -o fuel.ply       iso-surfaces as polygons
   depthleap info                                         devices, and which --cull works";
 
 const INPUT: &str = "Input:
@@ -93,6 +95,7 @@ enum Command {
     Compare(compare::CompareCommand),
     Report(report::ReportCommand),
     Plan(Box<plan::PlanCommand>),
+    Shells(Box<shells::ShellsCommand>),
     Info(info::InfoCommand),
 }
 
@@ -119,6 +122,7 @@ pub fn main() -> ExitCode {
         Command::Stability(command) => command.run(),
         Command::Report(command) => command.run(),
         Command::Plan(command) => command.run(),
+        Command::Shells(command) => command.run(),
         Command::Info(command) => command.run(),
     };
     finish(result)

@@ -18,6 +18,7 @@ pub mod limits;
 pub mod measured;
 mod notes;
 pub mod picture;
+pub mod ply;
 pub mod record;
 pub mod runner;
 pub mod saving;

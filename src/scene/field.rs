@@ -112,6 +112,11 @@ impl Field {
         Missing { voxel_type: voxels.voxel_type(), no_data: &self.no_data }.is(voxels.get(voxel))
     }
 
+    /// x of a value in the volume's own unit.
+    pub fn x(&self, value: f64) -> f32 {
+        normalised(value, self.range)
+    }
+
     /// Whether x is 0 everywhere, since the scalar range is a single value.
     pub fn has_empty_range(&self) -> bool {
         self.range[0] == self.range[1]

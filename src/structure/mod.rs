@@ -8,6 +8,7 @@ pub mod gradients;
 pub mod grid;
 pub mod octants;
 pub mod ranges;
+pub mod shell;
 pub mod square;
 pub mod wide;
 

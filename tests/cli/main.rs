@@ -8,6 +8,7 @@ mod output;
 mod polygons;
 mod program;
 mod report;
+mod shells;
 mod volume;
 
 use program::Place;

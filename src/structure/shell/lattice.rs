@@ -1,0 +1,82 @@
+//! Where the corners of cells lie: at the voxels' centres and, one more on each side, on the faces of the volume, where the value of the
+//! outermost voxel stays what it is.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::scene::Field;
+
+/// Nodes in a word of bits.
+pub const BITS: usize = 64;
+
+/// The nodes of a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lattice {
+    /// Voxels along x, y and z.
+    pub dims: [usize; 3],
+}
+
+impl Lattice {
+    pub fn new(field: &Field) -> Self {
+        Self { dims: field.dims() }
+    }
+
+    /// Nodes along x, y and z.
+    pub fn nodes(&self) -> [usize; 3] {
+        self.dims.map(|n| n + 2)
+    }
+
+    /// Rows of nodes along x.
+    pub fn rows(&self) -> usize {
+        self.nodes()[1] * self.nodes()[2]
+    }
+
+    /// Words of bits of a row.
+    pub fn words(&self) -> usize {
+        self.nodes()[0].div_ceil(BITS)
+    }
+
+    /// The voxel whose value a node has along an axis.
+    pub fn voxel(&self, axis: usize, node: usize) -> usize {
+        node.saturating_sub(1).min(self.dims[axis] - 1)
+    }
+
+    /// Where a node lies along an axis, in voxels from the volume's face on.
+    pub fn place(&self, axis: usize, node: usize) -> f64 {
+        (node as f64 - 0.5).clamp(0.0, self.dims[axis] as f64)
+    }
+
+    /// Where a node lies in volume space, whose origin is the middle of the volume.
+    pub fn position(&self, field: &Field, node: [usize; 3]) -> DVec3 {
+        let place = DVec3::from_array(std::array::from_fn(|axis| self.place(axis, node[axis])));
+        (place - 0.5 * DVec3::from_array(self.dims.map(|n| n as f64))) * field.voxel()
+    }
+
+    /// The value of a node.
+    pub fn value(&self, field: &Field, node: [usize; 3]) -> f32 {
+        let [x, y, z] = std::array::from_fn(|axis| self.voxel(axis, node[axis]));
+        field.values[(z * self.dims[1] + y) * self.dims[0] + x]
+    }
+
+    /// The row of voxels that a row of nodes has its values from.
+    pub fn row_of_values<'a>(&self, field: &'a Field, row: usize) -> &'a [f32] {
+        let [nx, ny, _] = self.dims;
+        let (y, z) = (row % self.nodes()[1], row / self.nodes()[1]);
+        let first = (self.voxel(2, z) * ny + self.voxel(1, y)) * nx;
+        &field.values[first..first + nx]
+    }
+
+    /// A bit for each node of each row: whether its value is above the level, or at it.
+    pub fn above(&self, field: &Field, level: f32) -> Vec<u64> {
+        let words = self.words();
+        let mut bits = vec![0; words * self.rows()];
+        bits.par_chunks_mut(words).enumerate().for_each(|(row, bits)| {
+            let values = self.row_of_values(field, row);
+            let mut set = |node: usize, value: f32| bits[node / BITS] |= u64::from(value >= level) << (node % BITS);
+            set(0, values[0]);
+            values.iter().enumerate().for_each(|(voxel, value)| set(voxel + 1, *value));
+            set(values.len() + 1, values[values.len() - 1]);
+        });
+        bits
+    }
+}

@@ -1,0 +1,78 @@
+//! The polygons of a shell.
+
+use rayon::prelude::*;
+
+use super::crossings::Crossings;
+use crate::error::{Error, Result};
+use crate::scene::Field;
+use crate::scene::mesh::Mesh;
+
+/// The surface of a level, in x, as a mesh in volume space, whose triangles go round against the clock as seen from below the level. A
+/// level that no two values lie on both sides of has none.
+///
+/// # Errors
+/// When there are more polygons than 32 bits count, or there is not enough memory for them.
+pub fn polygons(field: &Field, level: f32) -> Result<Mesh> {
+    let name = format!("shell of {} at x = {level}", field.volume.name);
+    let mut mesh = Mesh { name, corners: Vec::new(), triangles: Vec::new(), warnings: Vec::new() };
+    if !crosses(field, level) {
+        return Ok(mesh);
+    }
+    let crossings = Crossings::new(field, level)?;
+    make_room(&mut mesh, field, crossings.count)?;
+    let slabs = crossings.slabs();
+    let (mut vertices, mut triangles) = (&mut mesh.corners[..], &mut mesh.triangles[..]);
+    let mut parts = Vec::with_capacity(slabs.len());
+    for (z, pair) in slabs.windows(2).enumerate() {
+        let [here, further] = [pair[0], pair[1]];
+        let (vertices_here, triangles_here);
+        (vertices_here, vertices) = vertices.split_at_mut(further[0] - here[0]);
+        (triangles_here, triangles) = triangles.split_at_mut(further[1] - here[1]);
+        parts.push((z, (vertices_here, triangles_here)));
+    }
+    parts.into_par_iter().for_each(|(z, (vertices, triangles))| {
+        let (mut vertices, mut triangles) = (vertices.iter_mut(), triangles.iter_mut());
+        for word in crossings.words_of(z) {
+            crossings.each_vertex(word, |node, axis| {
+                if let Some(vertex) = vertices.next() {
+                    *vertex = place(&crossings, field, level, node, axis);
+                }
+            });
+            crossings.each_triangle(word, |numbers| {
+                if let Some(triangle) = triangles.next() {
+                    *triangle = numbers;
+                }
+            });
+        }
+    });
+    Ok(mesh)
+}
+
+/// Whether values of the field lie on both sides of a level: below it, and not below it.
+pub fn crosses(field: &Field, level: f32) -> bool {
+    let [low, high] = field.extremes();
+    low < level && level <= high
+}
+
+/// Takes the memory for so many vertices and triangles.
+fn make_room(mesh: &mut Mesh, field: &Field, [vertices, triangles]: [u32; 2]) -> Result<()> {
+    let room = mesh.corners.try_reserve_exact(vertices as usize);
+    if room.and(mesh.triangles.try_reserve_exact(triangles as usize)).is_err() {
+        let problem = format!("has a shell of {triangles} triangles, and there is not enough memory for them");
+        return Err(Error::input(&field.volume.name, problem, "choose another level, or a smaller volume"));
+    }
+    mesh.corners.resize(vertices as usize, [0.0; 3]);
+    mesh.triangles.resize(triangles as usize, [0; 3]);
+    Ok(())
+}
+
+/// Where a level crosses the edge of a node along an axis, in volume space.
+fn place(crossings: &Crossings, field: &Field, level: f32, node: [usize; 3], axis: usize) -> [f32; 3] {
+    let lattice = &crossings.lattice;
+    let mut further = node;
+    further[axis] += 1;
+    let [from, to] = [node, further].map(|node| (f64::from(lattice.value(field, node)), lattice.position(field, node)));
+    // The values are on both sides of the level, so that they differ.
+    let part = (f64::from(level) - from.0) / (to.0 - from.0);
+    from.1.lerp(to.1, part).as_vec3().to_array()
+}
