@@ -1,5 +1,5 @@
 //! How long marching cubes takes for a level, in CPU time of the process (all threads), beside VTK's two ways where Python has the
-//! package `vtk` (`pip install vtk`): the same voxels and levels, by turns.
+//! package `vtk` (`pip install vtk`): the same voxels and levels.
 //!
 //! `cargo bench --bench shells`. Without `../shared/data` it runs on a built-in volume.
 

@@ -2,7 +2,7 @@
 
 mod random;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use depthleap::math::interpolate::trilinear;
 use depthleap::scene::field::NanPolicy;
@@ -68,11 +68,24 @@ fn at_a_hole(field: &Field, ends: [[f32; 3]; 2]) -> bool {
         .any(|i| ends.iter().all(|end| inside(*end, [i % nx, i / nx % ny, i / (nx * ny)])))
 }
 
+/// Whether a place lies in a cell that is a hole, and not on its faces.
+fn is_inside_a_hole(field: &Field, place: DVec3) -> bool {
+    let (cell, [nx, ny, _]) = (field.cell_at(place), field.cells());
+    let from_face = (0..3).map(|axis| (place[axis] - 0.5 - (place[axis] - 0.5).round()).abs()).fold(1.0, f64::min);
+    let holes = field.holes.as_ref();
+    from_face > 1e-4 && holes.is_some_and(|holes| holes[(cell[2] * ny + cell[1]) * nx + cell[0]])
+}
+
 /// Closed but on the box and at holes, no vertex off the level, and each number of a vertex one that there is.
 fn check(field: &Field, level: f32, what: &str) -> Mesh {
     let shell = polygons(field, level).unwrap();
-    let count = shell.corners.len() as u32;
-    assert!(shell.triangles.iter().flatten().all(|vertex| *vertex < count), "{what}");
+    let used: BTreeSet<u32> = shell.triangles.iter().flatten().copied().collect();
+    assert!(used.into_iter().eq(0..shell.corners.len() as u32), "{what}: each vertex is one of a triangle");
+    for triangle in &shell.triangles {
+        let middle = triangle.map(|i| in_voxels(field, shell.corners[i as usize])).iter().sum::<DVec3>() / 3.0;
+        // Where a triangle has no area, the middle may lie on the hole.
+        assert!(!is_inside_a_hole(field, middle), "{what}: {triangle:?} lies in a hole");
+    }
     for ends in open_edges(&shell) {
         let places = ends.map(|i| shell.corners[i as usize]);
         assert!(on_the_box(field, places) || at_a_hole(field, places), "{what}: the edge {places:?} is open");
@@ -134,6 +147,7 @@ fn shells_of_random_volumes_are_closed_and_on_the_level() {
 #[test]
 fn plateaus_at_the_level_and_holes_leave_no_gap() {
     let mut random = Random(23);
+    let (mut holes, mut triangles) = (0, 0);
     for i in 0..200 {
         let dims = [0; 3].map(|_| 2 + (random.next() * 6.0) as usize);
         let hole = i % 2 == 1;
@@ -144,8 +158,19 @@ fn plateaus_at_the_level_and_holes_leave_no_gap() {
         let values = (0..dims.iter().product()).map(|_| value()).collect();
         // Many voxels have this very value.
         let field = field_of(dims, [1.0; 3], values);
-        check(&field, 0.5, &format!("{i}: {dims:?}"));
+        holes += field.holes.iter().flatten().filter(|hole| **hole).count();
+        triangles += check(&field, 0.5, &format!("{i}: {dims:?}")).triangles.len();
     }
+    assert!(holes > 500 && triangles > 10_000, "{holes} holes, {triangles} triangles");
+}
+
+#[test]
+fn what_stands_for_a_hole_makes_no_surface() {
+    // All voxels but one are 0.9, and that one is filled with 0.
+    let mut values = vec![0.9; 125];
+    values[62] = f32::NAN;
+    let shell = polygons(&field_of([5; 3], [1.0; 3], values), 0.5).unwrap();
+    assert!(shell.corners.is_empty() && shell.triangles.is_empty(), "{} vertices", shell.corners.len());
 }
 
 #[test]
@@ -154,7 +179,8 @@ fn rows_longer_than_a_word_are_closed() {
     for nx in [61, 62, 63, 64, 65, 126, 127, 128, 200] {
         let dims = [nx, 3, 4];
         let values = (0..dims.iter().product()).map(|_| random.next() as f32).collect();
-        check(&field_of(dims, [1.0; 3], values), 0.5, &format!("{nx}"));
+        let shell = check(&field_of(dims, [1.0; 3], values), 0.5, &format!("{nx}"));
+        assert!(shell.triangles.len() > nx, "{nx}");
     }
 }
 
@@ -210,9 +236,8 @@ fn nodes_lie_at_voxels_and_on_the_faces() {
     let lattice = Lattice::new(&field);
     assert_eq!(lattice.nodes(), [5, 3, 4]);
     let half = 0.5 * field.extent();
-    for (node, place) in [([0; 3], -half), ([4, 2, 3], half)] {
+    for (node, place) in [([0; 3], -half), ([4, 2, 3], half), ([1; 3], -half + 0.5 * field.voxel())] {
         assert!((lattice.position(&field, node) - place).length() < 1e-15, "{node:?}");
     }
-    assert_eq!(lattice.position(&field, [1, 1, 1]), -half + 0.5 * field.voxel());
     assert_eq!([lattice.value(&field, [0, 0, 0]), lattice.value(&field, [3, 1, 3])], [0.0, 5.0]);
 }

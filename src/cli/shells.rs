@@ -11,11 +11,13 @@ use super::output;
 use crate::error::{Error, Result};
 use crate::measure::ply::ply;
 use crate::measure::write::{is_standard_output, write_atomically, write_standard_error, write_standard_output};
+use crate::plan;
 use crate::read;
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
 use crate::scene::Field;
-use crate::structure::shell::{crosses, polygons};
+use crate::scene::settings::finite_number;
+use crate::structure::shell::polygons;
 
 /// The most levels at once.
 const MOST_LEVELS: usize = 256;
@@ -24,8 +26,9 @@ const MOST_LEVELS: usize = 256;
 ///
 /// Finds the shells of a volume, a surface for each level, by marching cubes between the voxels' centres and out to the faces of the
 /// volume [Heidrich95 §2], and writes them to one PLY file: triangles with shared vertices in volume space, each vertex with its level
-/// as `value`. Surfaces are closed but on the faces of the volume and at holes (--nan hole). Prints polygons and CPU time of each
-/// level to standard error.
+/// as `value`. Surfaces are closed except at the faces of the volume and at holes (--nan hole); where voxels lie at the level itself,
+/// vertices coincide and some triangles have no area. Clip planes and clip geometry take nothing away. Prints polygons and CPU time of
+/// each level to standard error.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap shells fuel.nrrd --levels 40,80,120 -o fuel.ply
@@ -39,10 +42,10 @@ pub struct ShellsCommand {
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     output: PathBuf,
     /// Values of the surfaces, in the volume's own unit, with commas between; in any order
-    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', value_parser = finite_number, allow_hyphen_values = true)]
     #[arg(required_unless_present = "count", conflicts_with = "count")]
     levels: Vec<f64>,
-    /// So many levels, each in the middle of an equal part of the scalar range (--range)
+    /// Number of levels, each in the middle of an equal part of the scalar range (--range)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     #[command(flatten)]
@@ -53,8 +56,9 @@ impl ShellsCommand {
     pub fn run(&self) -> Result<()> {
         output::check(&[&self.output])?;
         let settings = self.scene_options.settings(self.scene.as_deref())?;
-        let field = &read::scene(&settings)?.field;
-        let (levels, warnings) = self.asked(field)?;
+        let scene = read::scene(&settings)?;
+        let (field, name) = (&scene.field, scene_name(&settings));
+        let (levels, mut warnings) = self.asked(field)?;
         let mut table = Table {
             columns: ["level", "vertices", "triangles", "CPU ms"].map(Column::numbers).to_vec(),
             ..Table::default()
@@ -69,8 +73,14 @@ impl ShellsCommand {
             table.rows.push(row.into_iter().map(Into::into).collect());
             shells.push((level, shell));
         }
-        output::say("warning", &scene_name(&settings), &warnings);
-        let bytes = ply(&shells)?;
+        let empty = shells.iter().filter(|(_, shell)| shell.triangles.is_empty());
+        let empty: Vec<String> = empty.map(|(level, _)| level.to_string()).collect();
+        if !empty.is_empty() {
+            warnings.push(format!("all values lie on one side of {}: there is no surface", empty.join(", ")));
+        }
+        output::say("note", &name, &plan::notes(&scene));
+        output::say("warning", &name, field.volume.warnings.iter().chain(&warnings));
+        let bytes = ply(&shells, field.volume.turn)?;
         match is_standard_output(&self.output) {
             true => write_standard_output(&bytes)?,
             false => write_atomically(&self.output, &bytes)?,
@@ -87,9 +97,6 @@ impl ShellsCommand {
             let problem = format!("asks for {number} levels");
             return Err(Error::usage(option, problem, format!("ask for 1 to {MOST_LEVELS}")));
         }
-        if let Some(level) = self.levels.iter().find(|level| !level.is_finite()) {
-            return Err(Error::usage("--levels", format!("has the level {level}"), "give finite numbers"));
-        }
         let [low, high] = field.range;
         let middle = |i: usize| {
             let part = (i as f64 + 0.5) / number as f64;
@@ -103,16 +110,12 @@ impl ShellsCommand {
         levels.sort_by(f64::total_cmp);
         let asked = levels.len();
         levels.dedup();
-        let mut warnings = Vec::new();
-        if levels.len() < asked {
-            warnings.push(format!("{} of {asked} levels are there twice, and are written once", asked - levels.len()));
-        }
-        let names: Vec<String> =
-            levels.iter().filter(|level| !crosses(field, field.x(**level))).map(f64::to_string).collect();
-        if !names.is_empty() {
-            let levels = names.join(", ");
-            warnings.push(format!("no value lies on both sides of the level {levels}: its surface has no polygons"));
-        }
-        Ok((levels, warnings))
+        let repeated = asked - levels.len();
+        let warning = match repeated {
+            0 => None,
+            1 => Some("a repeated level is written once".to_owned()),
+            _ => Some(format!("{repeated} repeated levels are written once")),
+        };
+        Ok((levels, warning.into_iter().collect()))
     }
 }

@@ -1,4 +1,4 @@
-//! Structures that tell where a volume holds nothing to see.
+//! Structures that are built of a volume: those that tell where it holds nothing to see, gradients, and shells.
 
 pub mod blocks;
 pub mod bundle;

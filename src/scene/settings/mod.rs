@@ -50,6 +50,7 @@ pub use layers::PartialSegments;
 pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
 pub use method::{Builder, CELLS, SliceCut};
+pub use parse::number as finite_number;
 pub use placed::Placed;
 pub use refraction::Refraction;
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};

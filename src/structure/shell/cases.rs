@@ -31,8 +31,8 @@ fn edge_between(one: usize, other: usize) -> u8 {
     (axis * 4 + (one >> b & 1) + 2 * (one >> c & 1)) as u8
 }
 
-/// Triangles of each case, by their edges; the case is a bit for each corner that is above the level. Seen from below the level they
-/// go round against the clock, in a right-handed space.
+/// Triangles of each case, by their edges; the case is a bit for each corner whose value is not below the level. Seen from below the
+/// level they go round against the clock, in a right-handed space.
 pub static CASES: LazyLock<[Vec<[u8; 3]>; 256]> =
     LazyLock::new(|| std::array::from_fn(|case| loops(case as u8).iter().flat_map(|one| triangles(one)).collect()));
 
@@ -86,13 +86,13 @@ fn loops(case: u8) -> Vec<Vec<u8>> {
 /// Whether two edges of a cell lie in one of its faces.
 fn share_a_face(one: u8, other: u8) -> bool {
     let of = |edge: u8| {
-        let number = edge_of_corners(edge);
-        faces().map(|face| number.iter().all(|corner| face.contains(corner)))
+        let corners = corners_of_edge(edge);
+        faces().map(|face| corners.iter().all(|corner| face.contains(corner)))
     };
     of(one).iter().zip(of(other)).any(|(a, b)| *a && b)
 }
 
-fn edge_of_corners(number: u8) -> [usize; 2] {
+fn corners_of_edge(number: u8) -> [usize; 2] {
     let (axis, lower) = edge(number.into());
     [lower, lower | 1 << axis]
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cases::{CASES, CORNERS, edge};
-use super::lattice::{BITS, Lattice};
+use super::lattice::{BITS, Lattice, too_little_memory};
 use crate::error::{Error, Result};
 use crate::scene::Field;
 
@@ -13,6 +13,8 @@ pub struct Crossings<'a> {
     field: &'a Field,
     /// Of each row of nodes, its words: a bit where the value is not below the level.
     above: Vec<u64>,
+    /// Of each word, the nodes with a vertex on the edge that goes up along x, y and z.
+    vertices: Vec<[u64; 3]>,
     /// The vertices, and the triangles, before each word.
     before: Vec<[u32; 2]>,
     /// Vertices and triangles in all.
@@ -29,18 +31,15 @@ pub(super) struct Word {
 
 impl<'a> Crossings<'a> {
     /// # Errors
-    /// When there are more vertices or triangles than 32 bits count.
+    /// When there are more vertices or triangles than 32 bits count, or there is not enough memory.
     pub fn new(field: &'a Field, level: f32) -> Result<Self> {
         let lattice = Lattice::new(field);
-        let above = lattice.above(field, level);
-        let mut crossings = Self { lattice, field, above, before: Vec::new(), count: [0; 2] };
-        let of_words: Vec<[u32; 2]> = (0..lattice.rows() * lattice.words())
-            .into_par_iter()
-            .with_min_len(lattice.words())
-            .map(|i| crossings.counted(crossings.word(i)))
-            .collect();
+        let (vertices, before, count) = (Vec::new(), Vec::new(), [0; 2]);
+        let above = lattice.above(field, level)?;
+        let mut crossings = Self { lattice, field, above, vertices, before, count };
+        crossings.vertices = crossings.of_words(Self::crossed)?;
+        crossings.before = crossings.of_words(Self::counted)?;
         let mut sum = [0u64; 2];
-        crossings.before = of_words;
         for one in &mut crossings.before {
             let here = one.map(u64::from);
             *one = sum.map(|sum| sum as u32);
@@ -49,10 +48,22 @@ impl<'a> Crossings<'a> {
         let most = sum[0].max(sum[1]);
         crossings.count = sum.map(|sum| sum as u32);
         if most > u64::from(u32::MAX) {
-            let problem = format!("has a shell of {most} polygons at {level}, which 32 bits do not count");
+            let problem =
+                format!("has a shell of {most} triangles or vertices at x = {level}, which 32 bits do not count");
             return Err(Error::input(&field.volume.name, problem, "choose another level"));
         }
         Ok(crossings)
+    }
+
+    /// Something of every word.
+    fn of_words<T: Send>(&self, of: fn(&Self, Word) -> T) -> Result<Vec<T>> {
+        let words = self.lattice.words();
+        let mut all = Vec::new();
+        let count = self.lattice.rows() * words;
+        all.try_reserve_exact(count).map_err(|_| too_little_memory(self.field))?;
+        let found = (0..count).into_par_iter().with_min_len(words).map(|i| of(self, self.word(i)));
+        found.collect_into_vec(&mut all);
+        Ok(all)
     }
 
     fn word(&self, i: usize) -> Word {
@@ -83,14 +94,43 @@ impl<'a> Crossings<'a> {
         if nodes >= BITS { u64::MAX } else { (1 << nodes) - 1 }
     }
 
-    /// The nodes of a word with a vertex on the edge that goes up along x, y and z.
-    fn vertices(&self, word: Word) -> [u64; 3] {
+    /// The nodes of a word with a vertex on the edge that goes up along x, y and z: the level crosses it, and not all cells around it are
+    /// holes.
+    fn crossed(&self, word: Word) -> [u64; 3] {
         let here = self.sides(word);
         let [_, rows, slabs] = self.lattice.nodes();
         let along_x = (here ^ self.next_sides(word)) & self.with_next(word);
         let along_y = if word.y + 1 < rows { here ^ self.sides(Word { y: word.y + 1, ..word }) } else { 0 };
         let along_z = if word.z + 1 < slabs { here ^ self.sides(Word { z: word.z + 1, ..word }) } else { 0 };
-        [along_x, along_y, along_z]
+        let mut axes = [along_x, along_y, along_z];
+        if self.field.holes.is_some() {
+            for (axis, nodes) in axes.iter_mut().enumerate() {
+                let mut left = *nodes;
+                while left != 0 {
+                    let bit = left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    let node = [word.at * BITS + bit, word.y, word.z];
+                    *nodes &= !(u64::from(self.is_amid_holes(node, axis)) << bit);
+                }
+            }
+        }
+        axes
+    }
+
+    /// Whether all cells around the edge that goes up from a node along an axis are holes.
+    fn is_amid_holes(&self, node: [usize; 3], axis: usize) -> bool {
+        let nodes = self.lattice.nodes();
+        let [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
+        // Those that end at the node along each of the other axes, and those that begin there, as far as there are any.
+        let along =
+            |axis: usize| (node[axis].saturating_sub(1)..=node[axis]).filter(move |cell| cell + 1 < nodes[axis]);
+        along(b).all(|at_b| {
+            along(c).all(|at_c| {
+                let mut cell = node;
+                (cell[b], cell[c]) = (at_b, at_c);
+                self.is_hole(cell)
+            })
+        })
     }
 
     /// The rows of a word's cells: its own, and those further along y, along z and along both; none where the volume ends.
@@ -110,7 +150,7 @@ impl<'a> Crossings<'a> {
         while crossed != 0 {
             let bit = crossed.trailing_zeros() as usize;
             crossed &= crossed - 1;
-            if self.is_hole(word, bit) {
+            if self.is_hole([word.at * BITS + bit, word.y, word.z]) {
                 continue;
             }
             let case = (0..CORNERS).map(|corner| (sides[corner >> 1][corner & 1] >> bit & 1) << corner).sum::<u64>();
@@ -133,7 +173,7 @@ impl<'a> Crossings<'a> {
 
     /// Calls `found` with each vertex of a word in the order of their numbers: its node and the axis of its edge.
     pub(super) fn each_vertex(&self, word: Word, mut found: impl FnMut([usize; 3], usize)) {
-        let axes = self.vertices(word);
+        let axes = self.vertices[self.index(word)];
         let mut any = axes[0] | axes[1] | axes[2];
         while any != 0 {
             let bit = any.trailing_zeros() as usize;
@@ -159,24 +199,24 @@ impl<'a> Crossings<'a> {
 
     /// The number of the vertex on the edge of a node along an axis.
     fn vertex(&self, word: Word, bit: usize, axis: usize) -> u32 {
-        let axes = self.vertices(word);
+        let axes = self.vertices[self.index(word)];
         let nodes_before = (1 << bit) - 1;
         let before = axes.iter().map(|along| (along & nodes_before).count_ones()).sum::<u32>();
         let here = axes[..axis].iter().map(|along| (along >> bit & 1) as u32).sum::<u32>();
         self.before[self.index(word)][0] + before + here
     }
 
-    fn is_hole(&self, word: Word, bit: usize) -> bool {
+    /// Whether the cell that goes up from a node is a hole.
+    fn is_hole(&self, node: [usize; 3]) -> bool {
         let Some(holes) = &self.field.holes else { return false };
         let cells = self.field.cells();
-        let node = [word.at * BITS + bit, word.y, word.z];
         let [x, y, z] = std::array::from_fn(|axis| node[axis].saturating_sub(1).min(cells[axis] - 1));
         holes[(z * cells[1] + y) * cells[0] + x]
     }
 
     /// Vertices and triangles of a word.
     fn counted(&self, word: Word) -> [u32; 2] {
-        let vertices = self.vertices(word).map(u64::count_ones).iter().sum();
+        let vertices = self.vertices[self.index(word)].map(u64::count_ones).iter().sum();
         let mut triangles = 0;
         self.cells(word, |_, case| triangles += CASES[case].len() as u32);
         [vertices, triangles]

@@ -4,6 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::error::{Error, Result};
 use crate::scene::Field;
 
 /// Nodes in a word of bits.
@@ -46,7 +47,7 @@ impl Lattice {
         (node as f64 - 0.5).clamp(0.0, self.dims[axis] as f64)
     }
 
-    /// Where a node lies in volume space, whose origin is the middle of the volume.
+    /// Where a node lies, in the volume's own axes, from its middle on; the longest side of the volume is 1.
     pub fn position(&self, field: &Field, node: [usize; 3]) -> DVec3 {
         let place = DVec3::from_array(std::array::from_fn(|axis| self.place(axis, node[axis])));
         (place - 0.5 * DVec3::from_array(self.dims.map(|n| n as f64))) * field.voxel()
@@ -67,9 +68,14 @@ impl Lattice {
     }
 
     /// A bit for each node of each row: whether its value is above the level, or at it.
-    pub fn above(&self, field: &Field, level: f32) -> Vec<u64> {
+    ///
+    /// # Errors
+    /// When there is not enough memory.
+    pub fn above(&self, field: &Field, level: f32) -> Result<Vec<u64>> {
         let words = self.words();
-        let mut bits = vec![0; words * self.rows()];
+        let mut bits = Vec::new();
+        bits.try_reserve_exact(words * self.rows()).map_err(|_| too_little_memory(field))?;
+        bits.resize(words * self.rows(), 0);
         bits.par_chunks_mut(words).enumerate().for_each(|(row, bits)| {
             let values = self.row_of_values(field, row);
             let mut set = |node: usize, value: f32| bits[node / BITS] |= u64::from(value >= level) << (node % BITS);
@@ -77,6 +83,11 @@ impl Lattice {
             values.iter().enumerate().for_each(|(voxel, value)| set(voxel + 1, *value));
             set(values.len() + 1, values[values.len() - 1]);
         });
-        bits
+        Ok(bits)
     }
+}
+
+/// The error where there is not enough memory for a shell.
+pub(super) fn too_little_memory(field: &Field) -> Error {
+    Error::input(&field.volume.name, "has a shell for which there is not enough memory", "use a smaller volume")
 }

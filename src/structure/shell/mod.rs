@@ -11,4 +11,4 @@ mod polygons;
 pub use cases::{CASES, CORNERS, EDGES, MOST_TRIANGLES, edge};
 pub use crossings::Crossings;
 pub use lattice::Lattice;
-pub use polygons::{crosses, polygons};
+pub use polygons::polygons;

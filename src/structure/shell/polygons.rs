@@ -3,12 +3,13 @@
 use rayon::prelude::*;
 
 use super::crossings::Crossings;
-use crate::error::{Error, Result};
+use super::lattice::too_little_memory;
+use crate::error::Result;
 use crate::scene::Field;
 use crate::scene::mesh::Mesh;
 
-/// The surface of a level, in x, as a mesh in volume space, whose triangles go round against the clock as seen from below the level. A
-/// level that no two values lie on both sides of has none.
+/// The surface of a level, in x, as a mesh in the volume's own axes, about its middle, whose longest side is 1. Triangles go round
+/// against the clock as seen from below the level. There are none where all values lie on one side of the level.
 ///
 /// # Errors
 /// When there are more polygons than 32 bits count, or there is not enough memory for them.
@@ -49,7 +50,7 @@ pub fn polygons(field: &Field, level: f32) -> Result<Mesh> {
 }
 
 /// Whether values of the field lie on both sides of a level: below it, and not below it.
-pub fn crosses(field: &Field, level: f32) -> bool {
+fn crosses(field: &Field, level: f32) -> bool {
     let [low, high] = field.extremes();
     low < level && level <= high
 }
@@ -57,16 +58,13 @@ pub fn crosses(field: &Field, level: f32) -> bool {
 /// Takes the memory for so many vertices and triangles.
 fn make_room(mesh: &mut Mesh, field: &Field, [vertices, triangles]: [u32; 2]) -> Result<()> {
     let room = mesh.corners.try_reserve_exact(vertices as usize);
-    if room.and(mesh.triangles.try_reserve_exact(triangles as usize)).is_err() {
-        let problem = format!("has a shell of {triangles} triangles, and there is not enough memory for them");
-        return Err(Error::input(&field.volume.name, problem, "choose another level, or a smaller volume"));
-    }
+    room.and(mesh.triangles.try_reserve_exact(triangles as usize)).map_err(|_| too_little_memory(field))?;
     mesh.corners.resize(vertices as usize, [0.0; 3]);
     mesh.triangles.resize(triangles as usize, [0; 3]);
     Ok(())
 }
 
-/// Where a level crosses the edge of a node along an axis, in volume space.
+/// Where a level crosses the edge of a node along an axis.
 fn place(crossings: &Crossings, field: &Field, level: f32, node: [usize; 3], axis: usize) -> [f32; 3] {
     let lattice = &crossings.lattice;
     let mut further = node;
