@@ -1,7 +1,7 @@
 //! `auto`: what a look finds, what methods would do by it, held against what their f64 frames count, and what is chosen; needs no
 //! device.
 
-use depthleap::auto::{AutoRecord, DeviceFacts, Look, Tuning, Work, choose, settle};
+use depthleap::auto::{AutoRecord, DeviceFacts, Estimate, Look, MethodFacts, Tuning, Work, choose, settle};
 use depthleap::frame::cpu::Counts;
 use depthleap::frame::{Structures, cpu};
 use depthleap::method::{self, METHODS};
@@ -9,7 +9,8 @@ use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
 use depthleap::scene::settings::{Cull, MethodName};
-use depthleap::scene::{Scene, Settings};
+use depthleap::scene::volume::Voxels;
+use depthleap::scene::{Scene, Settings, Volume};
 
 fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
     let mut settings = Settings::default();
@@ -142,9 +143,93 @@ fn what_is_built_counts_by_the_frames_it_serves() {
 fn nothing_is_skipped_where_everything_shows() {
     for frames in [1, 1000] {
         let record = chosen(&scene("constant:64", "haze", |s| s.method.frames = frames));
-        let method = row(&record.chosen.method);
-        assert!(!method.looks_ahead() || record.chosen.build_ms == 0.0, "{}", record.chosen.method);
+        for estimate in record.weighed.iter().filter(|estimate| row(&estimate.method).looks_ahead()) {
+            assert_eq!((estimate.build_ms, estimate.work.lookups), (0.0, 0.0), "{}", estimate.method);
+        }
     }
+    let asked = chosen(&scene("constant:64", "haze", |s| s.method.planner = false));
+    let looking = asked.weighed.iter().filter(|estimate| row(&estimate.method).looks_ahead());
+    assert!(looking.clone().count() > 0 && looking.clone().all(|estimate| estimate.build_ms > 0.0), "all is built");
+}
+
+#[test]
+fn a_volume_with_one_free_cell_has_what_is_built_for_it_counted() {
+    let mut settings = Settings::default();
+    settings.transfer.preset = Some("linear".to_owned());
+    settings.image.size = [64, 64];
+    let mut voxels = vec![0.5f32; 64 * 64 * 64];
+    for (x, y, z) in (0..27).map(|i| (i % 3, i / 3 % 3, i / 9)) {
+        voxels[((30 + z) * 64 + 30 + y) * 64 + 30 + x] = 0.0;
+    }
+    settings.volume.range = Some([0.0, 1.0].map(Into::into));
+    let volume = Volume::new("a hole", [64; 3], [1.0; 3], Voxels::F32(voxels)).unwrap();
+    let scene = read::scene_of(&settings, |_| Ok(volume.clone())).unwrap();
+    let weighed = chosen(&scene).weighed;
+    let skipping = weighed.iter().filter(|estimate| row(&estimate.method).looks_ahead());
+    assert!(skipping.clone().count() > 0 && skipping.clone().all(|estimate| estimate.build_ms > 0.0), "{weighed:?}");
+}
+
+#[test]
+fn a_look_stays_small_whatever_it_looks_at() {
+    let samples = |size: [u32; 2], height: f64, step: f64| {
+        let settings = |s: &mut Settings| {
+            (s.image.size, s.camera.height, s.sampling.step) = (size, Some(height), step);
+        };
+        let look = Look::of(&scene("shells:32", "linear", settings)).unwrap();
+        assert!(look.rays().count() > 0, "{size:?}");
+        (look.rays().count(), look.rays().map(|ray| ray.seen.len()).sum::<usize>(), look.pixels)
+    };
+    let (_, taken, _) = samples([400, 400], 1.3, 1e-3);
+    assert!(taken < 1 << 21, "{taken} samples of long rays");
+    let (rays, ..) = samples([20_000, 1], 1e-4, 1.0);
+    assert!(rays <= 4 * 129, "{rays} rays of a line of pixels");
+    let (.., pixels) = samples([1, 1], 0.5, 1.0);
+    assert_eq!(pixels, 1.0, "the only pixel shows the volume");
+}
+
+#[test]
+fn rays_end_where_planners_and_passes_let_them() {
+    let mut settings = Settings::default();
+    settings.image.size = [32, 32];
+    settings.projection.kind = "mip".parse().unwrap();
+    let halves: Vec<f32> = (0..512).map(|i| if i % 8 < 4 { 0.0 } else { 1.0 }).collect();
+    let volume = Volume::new("halves", [8; 3], [1.0; 3], Voxels::F32(halves)).unwrap();
+    let mip = Look::of(&read::scene_of(&settings, |_| Ok(volume.clone())).unwrap()).unwrap();
+    assert!(
+        mip.may_end && mip.rays().any(|ray| ray.seen.len() < ray.samples as usize),
+        "the greatest value is reached"
+    );
+    let xray = Look::of(&scene("shells:40", "ramp", |s| s.projection.kind = "xray".parse().unwrap())).unwrap();
+    assert!(!xray.may_end);
+    // An eye within a surface meets it at once.
+    let inside = |s: &mut Settings| {
+        s.surface.iso = Some(0.1);
+        (s.camera.eye, s.camera.target) = ([0.0, 0.0, 0.05], [0.3, 0.1, 0.0]);
+    };
+    let look = Look::of(&scene("gaussian:32", "ramp", inside)).unwrap();
+    assert!(look.rays().all(|ray| ray.seen.len() == 1));
+}
+
+#[test]
+fn values_beyond_the_range_are_looked_at_as_they_are() {
+    let mut settings = Settings::default();
+    settings.image.size = [32, 32];
+    settings.volume.range = Some([0.0, 1.0].map(Into::into));
+    settings.transfer.preset = None;
+    settings.transfer.points =
+        Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0], [1.0, 1.0, 1.0, 1.0, 0.0], [2.0, 1.0, 1.0, 1.0, 0.5]]);
+    let look = |value: f32| {
+        let volume = Volume::new("far", [8; 3], [1.0; 3], Voxels::F32(vec![value; 512])).unwrap();
+        Look::of(&read::scene_of(&settings, |_| Ok(volume.clone())).unwrap()).unwrap().coarse.open_share()
+    };
+    assert_eq!([look(-5.0), look(0.5), look(1.5), look(3.0), look(1e30)], [0.0, 0.0, 1.0, 1.0, 1.0]);
+}
+
+#[test]
+fn forced_passes_stay_what_they_are() {
+    let record = chosen(&scene("jets:48", "ramp", |s| s.sampling.passes = 4));
+    let takes_passes = |estimate: &Estimate| !row(&estimate.method).loops() && !row(&estimate.method).back_to_front();
+    assert!(record.weighed.iter().all(|e| takes_passes(e) && e.samples_per_pass == 8), "{record:?}");
 }
 
 #[test]
@@ -160,17 +245,37 @@ fn only_methods_that_draw_the_scene_are_weighed() {
     assert!(surface.weighed.iter().all(|e| row(&e.method).on_device));
 }
 
+/// Facts of every method that culls.
+fn facts(of: impl Fn(&Method) -> (bool, Option<String>)) -> DeviceFacts {
+    let culling = METHODS.into_iter().filter(|method| method.papers.is_some());
+    let one = |method: &'static Method| {
+        let (unfit, culls_late) = of(method);
+        MethodFacts { method: method.name, unfit, form: None, culls_late }
+    };
+    DeviceFacts { methods: culling.map(one).collect() }
+}
+
 #[test]
 fn late_culling_makes_culled_fragments_cost() {
     let scene = scene("jets:48", "ramp", |s| s.method.frames = 1000);
-    let late = DeviceFacts { culls_late: Some("as its probe found".to_owned()), ..DeviceFacts::default() };
+    let late = facts(|_| (false, Some("as its probe found".to_owned())));
     let ms = |facts: &DeviceFacts, name: &str| {
         let record = choose(&scene, facts).unwrap();
         record.weighed.iter().find(|estimate| estimate.method == name).unwrap().frame_ms
     };
     assert!(ms(&late, "nn-omni") > 1.2 * ms(&DeviceFacts::default(), "nn-omni"));
+    assert!(ms(&late, "slices-3d-omni+ftb") > 1.2 * ms(&DeviceFacts::default(), "slices-3d-omni+ftb"));
     assert_eq!(ms(&late, "single-pass"), ms(&DeviceFacts::default(), "single-pass"));
     assert!(choose(&scene, &late).unwrap().sentences().iter().any(|line| line.contains("as its probe found")));
+}
+
+#[test]
+fn what_a_device_has_not_or_not_right_is_not_chosen() {
+    let scene = scene("jets:48", "ramp", |s| s.method.frames = 1000);
+    let record = choose(&scene, &facts(|method| (method.marks_sections(), None))).unwrap();
+    assert!(record.weighed.iter().all(|estimate| !row(&estimate.method).marks_sections()));
+    assert!(record.weighed.iter().any(|estimate| estimate.method == "rc-ert"));
+    assert!(record.sentences().iter().any(|line| line.contains("methods cull in a way that this device has not")));
 }
 
 #[test]

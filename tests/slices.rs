@@ -5,7 +5,7 @@ use depthleap::method::{self, METHODS, RC};
 use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
-use depthleap::scene::settings::{Alpha, Last, MethodName, Offset, SliceCut};
+use depthleap::scene::settings::{Accumulate, Alpha, ClipSettings, Last, MethodName, Offset, SliceCut};
 use depthleap::scene::slice_polygons::CutPlanes;
 use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack};
 use depthleap::scene::{Scene, Settings};
@@ -182,11 +182,23 @@ fn rays_on_slices_that_cannot_end_are_not_asked() {
     let wide = |s: &mut Settings| s.camera.fov_y = 120.0;
     let coarse = |s: &mut Settings| s.sampling.step = 3.0;
     let as_they_stand = |s: &mut Settings| (s.sampling.alpha, s.sampling.step) = (Alpha::Paper, 2.0);
-    let changes: [&dyn Fn(&mut Settings); 4] = [&|_| {}, &wide, &coarse, &as_they_stand];
+    let parallel = |s: &mut Settings| (s.camera.height, s.sampling.step) = (Some(1.4), 0.6);
+    let far_apart = |s: &mut Settings| (s.method.between, s.sampling.step, s.transfer.reference) = (false, 0.3, 2.0);
+    let inside = |s: &mut Settings| (s.camera.eye, s.camera.fov_y) = ([0.1, 0.0, 0.2], 150.0);
+    let coarsely_kept = |s: &mut Settings| s.image.accumulate = Accumulate::Rgba16f;
+    // A thin slab of a volume whose voxels are far flatter than the slack of slices.
+    let flat = |s: &mut Settings| {
+        along_z(s);
+        let plane = |plane| ClipSettings { plane: Some(plane), ..ClipSettings::default() };
+        s.clips = vec![plane([0.0, 0.0, 1.0, 1e-5]), plane([0.0, 0.0, -1.0, 1e-5])];
+        s.sampling.step = 1e-4;
+    };
+    let changes: [&dyn Fn(&mut Settings); 9] =
+        [&|_| {}, &wide, &coarse, &as_they_stand, &parallel, &far_apart, &inside, &coarsely_kept, &flat];
     for method in slicers().filter(|method| method.ends_rays && !method.looks_ahead()) {
         for (i, change) in changes.into_iter().enumerate() {
             let (most, _) = most_opaque_and_asked(method, 1.0, change);
-            assert!(most > 0.02, "{} {i}: {most}", method.name);
+            assert!(most > 1e-6, "{} {i}: {most}", method.name);
             assert!(most_opaque_and_asked(method, 0.999 * most, change).1, "{} {i}: one ends", method.name);
         }
         let (most, _) = most_opaque_and_asked(method, 1.0, |_| {});

@@ -9,7 +9,7 @@ use super::work::{Tuning, WayOfWorking, Work};
 use crate::error::{Error, Result};
 use crate::method::{self, METHODS};
 use crate::part::form::Form;
-use crate::part::rows::{Ahead, Method, Traversal};
+use crate::part::rows::{Ahead, Method};
 use crate::plan;
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, Mark, MethodSettings, Settings};
@@ -17,11 +17,27 @@ use crate::scene::settings::{Cull, Mark, MethodSettings, Settings};
 /// What is known of a device when a method is chosen for it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeviceFacts {
+    /// Of methods that cull there, each by its own form.
+    pub methods: Vec<MethodFacts>,
+}
+
+/// What is known of a method on a device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MethodFacts {
+    pub method: &'static str,
+    /// Whether its form is not there, or came out wrong in the self-check.
+    pub unfit: bool,
+    /// What the self-check found of its form, where it was asked.
+    pub form: Option<String>,
     /// Why fragments that are culled are shaded all the same, as a probe of the device has found; none where they are not, or it was
     /// not probed.
     pub culls_late: Option<String>,
-    /// What the self-check found of the form that the papers' near-neighbor skipping has here; none without one.
-    pub form: Option<String>,
+}
+
+impl DeviceFacts {
+    fn of(&self, method: &Method) -> Option<&MethodFacts> {
+        self.methods.iter().find(|facts| facts.method == method.name)
+    }
 }
 
 /// Settings of methods that are weighed where the scene leaves them as they are by default.
@@ -66,7 +82,12 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
     let asked = &scene.settings.method;
-    for method in METHODS.into_iter().filter(|method| method.on_device && culls_as_asked(method, asked)) {
+    let of_passes = |method: &Method| scene.settings.sampling.passes == 0 || takes_passes(method);
+    let fits = |method: &&'static Method| method.on_device && culls_as_asked(method, asked) && of_passes(method);
+    for method in METHODS.into_iter().filter(fits) {
+        if facts.of(method).is_some_and(|facts| facts.unfit) {
+            continue;
+        }
         match draws(method, scene) {
             Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings))),
             Err(e) => refused = Some(e),
@@ -88,11 +109,16 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         frames: method.frames,
         moving: method.moving,
         look_ms: 0.0,
-        reasons: reasons(&look, facts),
+        reasons: reasons(&look, facts, &chosen),
         chosen,
         runner_up: weighed.get(1).cloned(),
         weighed,
     })
+}
+
+/// Whether a method has passes that can be forced, and M samples in each.
+fn takes_passes(method: &Method) -> bool {
+    !method.loops() && !method.back_to_front()
 }
 
 /// Whether a method has the cull and mark that settings ask for; one that culls nothing has none.
@@ -137,8 +163,9 @@ impl Scales<'_> {
     /// What a method would take.
     fn weigh(&mut self, method: &'static Method, tuning: Tuning) -> Estimate {
         let mut work = self.work(method, tuning);
-        if self.facts.culls_late.is_some() && method.papers.is_some() {
-            work = work.with_late_culling(&self.work(&method::RC, tuning));
+        if self.facts.of(method).is_some_and(|facts| facts.culls_late.is_some()) {
+            let all = if method.stack().is_some() { &method::SLICES_3D } else { &method::RC };
+            work = work.with_late_culling(&self.work(all, tuning));
         }
         let looks_ahead = method.looks_ahead() && self.look.any_is_free;
         let build_ms = if looks_ahead { build_ms(method, tuning, self.scene) } else { 0.0 };
@@ -158,11 +185,17 @@ impl Scales<'_> {
     }
 }
 
-/// The settings that a method is weighed with first: those of the scene, where it has some of its own.
+/// The settings that a method is weighed with first: of each one that may be chosen, that of [`FIRST`].
 fn first(method: &Method, settings: &Settings) -> Tuning {
-    let asked = asked(settings);
-    let all = tunings(method, settings);
-    all.into_iter().find(|tuning| *tuning == Tuning { first: asked.first, ..FIRST }).unwrap_or(asked)
+    let (asked, all) = (asked(settings), tunings(method, settings));
+    let pick =
+        |of: fn(&Tuning) -> u32| if all.iter().any(|one| of(one) == of(&FIRST)) { of(&FIRST) } else { of(&asked) };
+    Tuning {
+        samples_per_pass: pick(|one| one.samples_per_pass),
+        lookups: pick(|one| one.lookups),
+        cell: pick(|one| one.cell),
+        first: asked.first,
+    }
 }
 
 /// The settings of a scene.
@@ -182,7 +215,8 @@ fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
         true => all.to_vec(),
         false => vec![asked],
     };
-    let in_passes = matches!(method.traversal, Traversal::Passes) || method.stack().is_some() && method.ends_rays;
+    // Where passes are forced, M says how far they go.
+    let in_passes = takes_passes(method) && settings.sampling.passes == 0;
     let ms = pick(in_passes, asked.samples_per_pass, default.samples_per_pass, &SAMPLES_PER_PASS);
     let lookups = pick(method.marks_sections(), asked.lookups, default.lookups, &LOOKUPS);
     let distances = matches!(method.ahead, Ahead::Distances(_));
@@ -197,7 +231,7 @@ fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
 }
 
 /// What was found, in sentences.
-fn reasons(look: &Look, facts: &DeviceFacts) -> Vec<String> {
+fn reasons(look: &Look, facts: &DeviceFacts, chosen: &Estimate) -> Vec<String> {
     let rays = look.rays().count();
     let mean =
         |of: &dyn Fn(&super::LookRay) -> usize| look.rays().map(|ray| of(ray) as f64).sum::<f64>() / rays.max(1) as f64;
@@ -209,7 +243,14 @@ fn reasons(look: &Look, facts: &DeviceFacts) -> Vec<String> {
             "of {rays} rays each has {samples:.0} samples on average, {end:.0} before it ends, {shown:.0} of which show something",
         ),
     ];
-    reasons.extend(facts.form.iter().cloned());
-    reasons.extend(facts.culls_late.iter().map(|why| format!("culled fragments are shaded all the same: {why}")));
+    let near_neighbor = METHODS.into_iter().filter(|method| method.marks_sections());
+    reasons.extend(near_neighbor.filter_map(|method| facts.of(method)?.form.clone()).next());
+    let unfit = facts.methods.iter().filter(|facts| facts.unfit).count();
+    reasons
+        .extend((unfit > 0).then(|| format!("{unfit} methods cull in a way that this device has not, or not right")));
+    let late: Vec<&MethodFacts> = facts.methods.iter().filter(|facts| facts.culls_late.is_some()).collect();
+    let of_chosen = late.iter().find(|facts| facts.method == chosen.method);
+    let one = of_chosen.or(late.first()).and_then(|facts| Some((facts.method, facts.culls_late.as_ref()?)));
+    reasons.extend(one.map(|(method, why)| format!("{method}'s culled fragments are shaded all the same: {why}")));
     reasons
 }

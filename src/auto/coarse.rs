@@ -43,7 +43,7 @@ impl Coarse {
                 let of_row = (z / side * cells[1] + y / side) * cells[0];
                 for x in &looked[0] {
                     let cell = of_row + x / side;
-                    if !open[cell] && shows(row[*x]) {
+                    if shows(row[*x]) {
                         open[cell] = true;
                         blocks.open([*x, *y, *z]);
                     }
@@ -70,6 +70,11 @@ impl Coarse {
     /// Cells from one to the nearest that is open, in any direction or within an octant.
     pub fn distance(&self, cell: u32, octant: Option<usize>) -> u8 {
         octant.map_or(&self.omni, |octant| &self.octants[octant])[cell as usize]
+    }
+
+    /// Something shows at a voxel.
+    pub fn open_block(&mut self, voxel: [u16; 3]) {
+        self.blocks.open(voxel.map(usize::from));
     }
 
     /// Whether anything shows in the blocks from that of one voxel to that of another.

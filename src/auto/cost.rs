@@ -92,9 +92,10 @@ const SLICES: Costs = Costs {
     ..PASSES
 };
 
-/// What a sample takes more for each time that a volume has twice the voxels of one that the first caches hold, and how many that
-/// one has: fewer of its samples find their voxels there.
+/// Nanoseconds that a sample takes more for each doubling of the voxels beyond [`CACHED_VOXELS`]: fewer of its fetches find their voxels
+/// in the caches.
 const SAMPLE_OF_TWICE: f64 = 1.0;
+/// Voxels of a volume that stays in the caches.
 const CACHED_VOXELS: f64 = (1 << 15) as f64;
 
 /// The part of a sample's colour that each further fetch is taken to cost, which was not measured.

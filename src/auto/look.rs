@@ -4,22 +4,25 @@ use glam::DVec3;
 
 use super::coarse::Coarse;
 use crate::error::Result;
+use crate::feature::comes_above;
+use crate::math::blend::Blend;
 use crate::math::opacity::corrected_opacity;
 use crate::math::ray::{ViewRay, cut_interval};
 use crate::projection::{self, Ends, Shown};
+use crate::scene::gathered::Gathered;
 use crate::scene::settings::Alpha;
 use crate::scene::view::View;
 use crate::scene::{Field, Scene};
+use crate::structure::cells::all_interesting;
 
-/// Pixels that a cluster of rays stands for, and the most clusters: a look has a small part of what a frame has.
+/// Pixels that a cluster of rays stands for, the most clusters, and the most samples of all rays together: a look has a small part of what
+/// a frame has.
 const PIXELS_OF_CLUSTER: f64 = 1024.0;
 const MOST_CLUSTERS: f64 = 64.0;
+const MOST_SAMPLES: f64 = (1 << 19) as f64;
 
 /// Where the rays of a cluster are, in pixels from its first one: at the corners of what a device shades at once.
 const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [3.0, 0.0], [0.0, 1.0], [3.0, 1.0]];
-
-/// Of so large a part of the cells on it is taken that something shows in all of them: only some voxels of each were looked at.
-const ALL_OPEN: f64 = 0.99;
 
 /// Parts of the scalar range that opacities are kept for.
 const PARTS: usize = 1024;
@@ -35,9 +38,9 @@ pub struct Look {
     pub clusters: Vec<Vec<LookRay>>,
     /// Where something shows.
     pub coarse: Coarse,
-    /// Whether any ray ends before it leaves the volume.
-    pub any_ends: bool,
-    /// Whether there is anything to skip.
+    /// Whether rays may end before they leave the volume, so that it is decided whether they do.
+    pub may_end: bool,
+    /// Whether there is anything to skip, as planners find it.
     pub any_is_free: bool,
 }
 
@@ -70,13 +73,16 @@ impl Look {
     pub fn of(scene: &Scene) -> Result<Self> {
         let view = View::new(scene)?;
         let shade = Shade::of(scene);
-        let coarse = Coarse::of(&scene.field, |value| shade.shows(value));
+        let mut coarse = Coarse::of(&scene.field, |value| shade.shows(value));
         let region = view.region;
         let pixels = f64::from(region.width) * f64::from(region.height);
-        let wanted = (pixels / PIXELS_OF_CLUSTER).clamp(1.0, MOST_CLUSTERS);
+        let room = MOST_SAMPLES / (CORNERS.len() as f64 * f64::from(view.longest_samples.max(1)));
+        let wanted = (pixels / PIXELS_OF_CLUSTER).min(MOST_CLUSTERS).min(room).max(1.0);
         let side = (pixels / wanted).sqrt().max(1.0);
-        let count = |length: u32| (f64::from(length) / side).ceil() as u32;
-        let (columns, rows) = (count(region.width), count(region.height));
+        let count = |length: u32, most: f64| (f64::from(length) / side).ceil().min(most.ceil()) as u32;
+        // Twice as many where the region is not divided evenly, and no more where it is a line.
+        let columns = count(region.width, 2.0 * wanted);
+        let rows = count(region.height, 2.0 * wanted / f64::from(columns.max(1)));
         let place = |at: u32, of: u32, from: u32, length: u32| {
             f64::from(from) + (f64::from(at) + 0.5) / f64::from(of) * f64::from(length)
         };
@@ -84,17 +90,22 @@ impl Look {
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
             let across = place(column, columns, region.x, region.width);
             let down = place(row, rows, region.y, region.height);
-            let rays = CORNERS.map(|[x, y]| view.rays.through(across + x, down + y));
+            // In a small picture neighbours are no farther than its last pixels.
+            let ends = [region.x + region.width, region.y + region.height].map(|end| f64::from(end) - 0.5);
+            let rays = CORNERS.map(|[x, y]| view.rays.through((across + x).min(ends[0]), (down + y).min(ends[1])));
             clusters.push(rays.iter().filter_map(|ray| shade.ray(&coarse, ray, view.rays.near)).collect::<Vec<_>>());
         }
         let met = clusters.iter().flatten().count() as f64 / (CORNERS.len() * clusters.len()).max(1) as f64;
         clusters.retain(|cluster| !cluster.is_empty());
-        let ends = |ray: &LookRay| ray.seen.len() < ray.samples as usize;
+        // A coarse grid of a large volume misses some of what rays have met.
+        for seen in clusters.iter().flatten().flat_map(|ray| &ray.seen).filter(|seen| seen.shows) {
+            coarse.open_block(seen.voxel);
+        }
         Ok(Self {
             pixels: pixels * met,
             longest: view.longest_samples,
-            any_ends: clusters.iter().flatten().any(ends),
-            any_is_free: coarse.open_share() < ALL_OPEN,
+            may_end: may_end(scene, &view),
+            any_is_free: !scene.settings.method.planner || !all_interesting(scene),
             clusters,
             coarse,
         })
@@ -106,35 +117,54 @@ impl Look {
     }
 }
 
+/// Whether rays of a view may end, as planners decide it.
+fn may_end(scene: &Scene, view: &View) -> bool {
+    let below_one = scene.settings.sampling.termination < 1.0;
+    match projection::of(&scene.settings).ends {
+        _ if !scene.settings.method.planner => true,
+        Ends::Opaque if scene.surface.is_some() => scene.ends_at_surfaces() || below_one,
+        Ends::Opaque if !scene.polygons.triangles.is_empty() || scene.effect.is_some() => below_one,
+        Ends::Opaque => comes_above(scene, &Gathered::of(scene, view, 1)),
+        Ends::Reached => true,
+        Ends::Never(_) => false,
+    }
+}
+
 /// What samples show, by their values.
 struct Shade<'a> {
     scene: &'a Scene,
     shown: Shown,
-    /// Whether values show, and how much of the light they take in a step: of 0 and less, of parts of the scalar range, of 1 and
-    /// more.
+    /// Whether values show, and how much of the light they take in a step: of parts of the scalar range.
     parts: Vec<(bool, f64)>,
     /// T, where opacity ends rays.
     ends_above: Option<f64>,
+    /// The value that ends rays which have come to it.
+    reached: Option<f32>,
 }
 
 impl<'a> Shade<'a> {
     fn of(scene: &'a Scene) -> Self {
         let shown = Shown::in_x(scene);
-        let (sampling, transfer) = (&scene.settings.sampling, &scene.transfer);
-        let opacity = |x: f64| match sampling.alpha {
-            Alpha::Exponential => corrected_opacity(transfer.evaluate(x)[3], sampling.step / transfer.reference),
-            Alpha::Paper => transfer.evaluate(x)[3],
-        };
-        let of = |x: f64| (shown.anywhere(x, x), opacity(x));
-        let inner = (0..PARTS).map(|part| of((part as f64 + 0.5) / PARTS as f64));
-        let parts = std::iter::once(of(0.0)).chain(inner).chain([of(1.0)]).collect();
-        let opaque = projection::of(&scene.settings).ends == Ends::Opaque && scene.surface.is_none();
-        Self { scene, parts, ends_above: opaque.then_some(sampling.termination), shown }
+        let sampling = &scene.settings.sampling;
+        let inner = (0..PARTS).map(|part| {
+            let [low, middle, high] = [0.0, 0.5, 1.0].map(|more| (part as f64 + more) / PARTS as f64);
+            (shown.anywhere(low, high), opacity(scene, middle))
+        });
+        let projection = projection::of(&scene.settings);
+        let opaque = projection.ends == Ends::Opaque && scene.surface.is_none();
+        let [least, greatest] = scene.field.extremes();
+        let end = if projection.blend == Blend::Min { least } else { greatest };
+        let reached = (projection.ends == Ends::Reached).then_some(end);
+        Self { scene, parts: inner.collect(), ends_above: opaque.then_some(sampling.termination), reached, shown }
     }
 
     fn at(&self, value: f32) -> (bool, f64) {
-        let place = if value > 0.0 { 1 + (value * PARTS as f32) as usize } else { 0 };
-        self.parts[place.min(PARTS + 1)]
+        let x = f64::from(value);
+        match self.parts.get((value.max(0.0) * PARTS as f32) as usize) {
+            Some(part) if value >= 0.0 => *part,
+            // Beyond the scalar range.
+            _ => (self.shown.anywhere(x, x), opacity(self.scene, x)),
+        }
     }
 
     fn shows(&self, value: f32) -> bool {
@@ -158,10 +188,11 @@ impl<'a> Shade<'a> {
                 None => {
                     let (shows, opacity) = self.at(value);
                     through *= 1.0 - opacity;
-                    (shows, self.ends_above.is_some_and(|threshold| 1.0 - through > threshold))
+                    let opaque = self.ends_above.is_some_and(|threshold| 1.0 - through > threshold);
+                    (shows, opaque || self.reached == Some(value))
                 }
                 Some(_) => {
-                    let met = self.meets(before.unwrap_or(value), value);
+                    let met = self.meets(before, value);
                     (met, met && self.scene.ends_at_surfaces())
                 }
             };
@@ -178,14 +209,25 @@ impl<'a> Shade<'a> {
         Some(LookRay { octant, step: self.scene.settings.sampling.step, samples, seen })
     }
 
-    /// Whether a surface, or what shows of the volume with it, is between two values.
-    fn meets(&self, before: f32, value: f32) -> bool {
+    /// Whether a surface, or what shows of the volume with it, is between two values; a ray that begins on it, without a value before,
+    /// meets it there where surfaces end rays.
+    fn meets(&self, before: Option<f32>, value: f32) -> bool {
         let surface = self.scene.surface.as_ref();
         let crossed = surface.iter().flat_map(|surface| &surface.levels).any(|level| {
             let on = |value: f32| (level.values[0]..=level.values[1]).contains(&f64::from(value));
-            on(before) != on(value) || on(value) && level.values[1].is_finite()
+            let begins = before.is_none() && on(value) && self.scene.ends_at_surfaces();
+            begins || before.is_some_and(|before| on(before) != on(value)) || on(value) && level.values[1].is_finite()
         });
         crossed || self.shown.visible.is_some() && self.shows(value)
+    }
+}
+
+/// How much of the light a sample of a value takes.
+fn opacity(scene: &Scene, x: f64) -> f64 {
+    let (sampling, transfer) = (&scene.settings.sampling, &scene.transfer);
+    match sampling.alpha {
+        Alpha::Exponential => corrected_opacity(transfer.evaluate(x)[3], sampling.step / transfer.reference),
+        Alpha::Paper => transfer.evaluate(x)[3],
     }
 }
 

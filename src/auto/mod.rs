@@ -10,7 +10,7 @@ mod look;
 mod record;
 mod work;
 
-pub use choose::{DeviceFacts, choose, settle};
+pub use choose::{DeviceFacts, MethodFacts, choose, settle};
 pub use coarse::Coarse;
 pub use cost::{build_ms, frame_ms};
 pub use look::{Look, LookRay, Seen};

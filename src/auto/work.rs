@@ -76,7 +76,8 @@ impl Work {
 
     /// The same where fragments that are culled run all the same, as those of a method that culls none.
     pub fn with_late_culling(self, all: &Self) -> Self {
-        Self { main_lanes: all.main_lanes, samples: all.samples, shown: all.shown, ..self }
+        let shown = self.shown.max(all.shown);
+        Self { main_lanes: self.main_lanes.max(all.main_lanes), samples: self.samples.max(all.samples), shown, ..self }
     }
 
     /// Adds what a cluster of rays does.
@@ -170,7 +171,7 @@ impl Walk<'_> {
 
     /// Whether there are intermediate passes.
     fn decides(&self) -> bool {
-        self.looks_ahead() || self.method.ends_rays && self.look.any_ends
+        self.looks_ahead() || self.method.ends_rays && self.look.may_end
     }
 
     fn shown(&self, from: usize, to: usize) -> f64 {
@@ -242,12 +243,13 @@ impl Walk<'_> {
     fn free_segment(&self, begin: usize, lookups: &mut f64) -> usize {
         let m = self.tuning.samples_per_pass as usize;
         match self.method.ahead {
+            _ if !self.looks_ahead() => 0,
             Ahead::Nothing => 0,
             Ahead::Blocks => {
                 *lookups += 1.0;
                 let seen = &self.ray.seen;
                 let [from, to] = [begin, begin + m].map(|i| seen[i.min(seen.len() - 1)].voxel);
-                if self.look.coarse.blocks_are_open(from, to) { 0 } else { m }
+                if self.look.coarse.blocks_are_open(from, to) || self.shown(begin, begin + m) > 0.0 { 0 } else { m }
             }
             Ahead::Distances(_) => {
                 let mut free = 0;

@@ -5,6 +5,7 @@ use super::reasons::never_ends;
 use super::surface::ISO_SURFACE;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::projection::Ends;
+use crate::scene::gathered::Gathered;
 use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
 use crate::twin::fused::blend_rounding;
@@ -29,7 +30,7 @@ pub fn may_end(context: &Context) -> bool {
             Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
             // Polygons and effects add to the opacity as much as they like.
             Ends::Opaque if context.blends || context.has(&EFFECT) => context.scene.settings.sampling.termination < 1.0,
-            Ends::Opaque => comes_above(context.scene, &Longest::of(context)),
+            Ends::Opaque => comes_above(context.scene, &Gathered::of(context.scene, context.view, context.passes)),
             Ends::Reached => true,
             Ends::Never(_) => false,
         }
@@ -38,33 +39,9 @@ pub fn may_end(context: &Context) -> bool {
 /// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.
 const ROUNDING: f64 = 1e-6;
 
-/// The most that any ray of a view gathers.
-struct Longest {
-    /// Samples.
-    samples: f64,
-    /// What all of them stand for together, in steps: as far as they go, the last one for a whole step.
-    steps: f64,
-    /// Colours blended with what the target holds.
-    blends: f64,
-}
-
-impl Longest {
-    fn of(context: &Context) -> Self {
-        let (scene, view) = (context.scene, context.view);
-        let along = f64::from(view.longest_samples.saturating_add(1));
-        let Some(slices) = &view.slices else {
-            return Self { samples: along, steps: along, blends: f64::from(context.passes) };
-        };
-        // From the first slice of a ray to its last one is no farther than the ray, and the last one stands for a stride.
-        let spacing = slices.spacing / (scene.settings.sampling.step * scene.field.finest());
-        let samples = along / spacing + 1.0;
-        Self { samples, steps: along + spacing * slices.longest_stride(&view.rays, view.size), blends: samples }
-    }
-}
-
 /// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and what the longest ray
 /// gathers, rounding included.
-fn comes_above(scene: &Scene, longest: &Longest) -> bool {
+pub fn comes_above(scene: &Scene, longest: &Gathered) -> bool {
     let sampling = &scene.settings.sampling;
     // Opacities never exceed 1.
     if sampling.termination >= 1.0 {
@@ -73,12 +50,16 @@ fn comes_above(scene: &Scene, longest: &Longest) -> bool {
     let [low, high] = scene.field.extremes().map(f64::from);
     let slack = scene.value_slack();
     let greatest = greatest_opacity(&scene.transfer, low - slack, high + slack);
+    if greatest == 0.0 {
+        return false;
+    }
+    // One more than there should be, whatever rounding does to the number of samples.
+    let samples = longest.samples + 1.0;
     let clear = match sampling.alpha {
         Alpha::Exponential => (longest.steps * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
-        Alpha::Paper => (longest.samples * (-greatest).ln_1p()).exp(),
+        Alpha::Paper => (samples * (-greatest).ln_1p()).exp(),
     };
-    let rounding =
-        longest.blends * f64::from(blend_rounding(scene.settings.image.accumulate)) + longest.samples * ROUNDING;
+    let rounding = longest.blends * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * ROUNDING;
     1.0 - clear + rounding > sampling.termination
 }
 

@@ -1,10 +1,13 @@
 //! What `auto` becomes on a device.
 
-use crate::auto::{AutoRecord, DeviceFacts, settle as settle_for};
+use crate::auto::{AutoRecord, DeviceFacts, MethodFacts, settle as settle_for};
 use crate::error::Result;
 use crate::frame::{SelfCheck, Verdict, culls_late};
-use crate::method;
+use crate::method::METHODS;
+use crate::part::rows::Method;
+use crate::plan;
 use crate::scene::Scene;
+use crate::scene::settings::Cull;
 use crate::vulkan::Device;
 
 /// Puts a method and its settings in place of `auto`; other scenes stay as they are.
@@ -15,16 +18,30 @@ pub fn settle(scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Op
     if !scene.settings.method.name.is_auto() {
         return Ok(None);
     }
-    settle_for(scene, &on.map(|(device, check)| facts(device, check)).unwrap_or_default())
+    let facts = on.map(|(device, check)| facts(scene, device, check));
+    settle_for(scene, &facts.unwrap_or_default())
 }
 
-/// What is known of a device.
-fn facts(device: &Device, check: &SelfCheck) -> DeviceFacts {
-    let form = check.automatic(method::NN_OMNI.name());
-    let words = form.map(|form| {
-        let right = check.forms.get(&form) == Some(&Verdict::Right);
-        let verdict = if right { "came out right in its self-check" } else { "is what its self-check leaves" };
-        format!("near-neighbor skipping culls by {} here, which {verdict}", form.name())
-    });
-    DeviceFacts { culls_late: form.and_then(|form| culls_late(device, form)), form: words }
+/// What is known of a device, of each method by the form that it would have there.
+fn facts(scene: &Scene, device: &Device, check: &SelfCheck) -> DeviceFacts {
+    let of = |method: &'static Method| {
+        let mut scene = scene.clone();
+        scene.settings.method.name = method.name();
+        // A form that the method has not is refused later, in words.
+        let form = plan::form(&scene, check.automatic(method.name())).ok().flatten()?;
+        let verdict = check.forms.get(&form);
+        let lacking = form.cull == Cull::Bounds && !device.info.depth_bounds;
+        let right = matches!(verdict, Some(Verdict::Right));
+        let words = || {
+            let found = if right { "came out right in its self-check" } else { "is what its self-check leaves" };
+            format!("near-neighbor skipping culls by {} here, which {found}", form.name())
+        };
+        Some(MethodFacts {
+            method: method.name,
+            unfit: lacking || matches!(verdict, Some(Verdict::Missing(_) | Verdict::Wrong(_))),
+            form: method.marks_sections().then(words),
+            culls_late: culls_late(device, form),
+        })
+    };
+    DeviceFacts { methods: METHODS.into_iter().filter(|method| method.on_device).filter_map(of).collect() }
 }

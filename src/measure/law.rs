@@ -7,21 +7,18 @@ use crate::error::{Error, Result};
 /// Skipping changes which fragments run, never the picture: holds every run that ends rays early against the first one with the same
 /// samples, and notes what was found.
 pub fn law_of_skipping(measured: &mut [Measured]) {
-    let mut rules: Vec<&'static str> = Vec::new();
+    let mut rules: Vec<(&'static str, u32)> = Vec::new();
     for rule in 0..measured.len() {
         let (before, rest) = measured.split_at_mut(rule + 1);
         let rule = &before[rule];
-        let samples = rule.method.unskipped().name;
+        // Where `auto` has chosen another M, colours are rounded at other places.
+        let samples_of = |one: &Measured| (one.method.unskipped().name, one.run.settings.sampling.samples_per_pass);
+        let samples = samples_of(rule);
         if !rule.method.under_the_law() || rules.contains(&samples) {
             continue;
         }
         rules.push(samples);
-        // Where `auto` has chosen another M, colours are rounded at other places.
-        let m = rule.run.settings.sampling.samples_per_pass;
-        let same = |one: &&mut Measured| {
-            let as_many = one.run.settings.sampling.samples_per_pass == m;
-            one.method.under_the_law() && one.method.unskipped().name == samples && as_many
-        };
+        let same = |one: &&mut Measured| one.method.under_the_law() && samples_of(one) == samples;
         rest.iter_mut().filter(same).for_each(|one| hold(one, rule));
     }
 }

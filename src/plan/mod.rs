@@ -16,6 +16,7 @@ use crate::part::rows::{Context, Feature, Method, Why};
 use crate::part::steps::Steps;
 use crate::part::{Step, Work};
 use crate::resource;
+use crate::scene::gathered::Gathered;
 use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
@@ -207,11 +208,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     });
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
-    // A sample on a slice may stand for several steps.
-    let stride = view.slices.as_ref().map_or(1.0, |slices| slices.longest_stride(&view.rays, view.size));
-    let samples = (f64::from(view.longest_samples) + 1.0) * stride;
-    let samples = if view.slices.is_some() { samples.min(f64::from(u32::MAX)) as u32 } else { view.longest_samples };
-    let pixel_error = precision::pixel_error(scene, error, samples, passes, ends);
+    let pixel_error = precision::pixel_error(scene, error, &Gathered::of(scene, &view, passes), ends);
     Ok(Plan { view, method, passes, form: choice.form, distance, texture, pixel_error, steps, builds, left_out })
 }
 

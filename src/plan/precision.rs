@@ -10,6 +10,7 @@
 use std::sync::Arc;
 
 use crate::projection::{self, OfValues};
+use crate::scene::gathered::Gathered;
 use crate::scene::settings::{Alpha, Last, Shows};
 use crate::scene::transfer::Knot;
 use crate::scene::{Environment, Scene, Surface};
@@ -18,11 +19,11 @@ use crate::twin::fused::blend_rounding;
 /// What f32 takes from a sum by each sample.
 const SAMPLE_ROUNDING: f64 = 1e-6;
 
-/// A bound of the difference of a channel, premultiplied and linear, between the picture of rays of so many `samples` in
-/// so many `passes`, whose x is off by at most `error`, and that of exact interpolation. `ends`: rays may end early.
-pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: bool) -> f64 {
+/// A bound of the difference of a channel, premultiplied and linear, between the picture of rays that gather no more than `gathered`
+/// and whose x is off by at most `error`, and that of exact interpolation. `ends`: rays may end early.
+pub fn pixel_error(scene: &Scene, error: f64, gathered: &Gathered, ends: bool) -> f64 {
     if let Some(values) = &projection::of(&scene.settings).values {
-        return value_error(scene, values, error, samples, passes);
+        return value_error(scene, values, error, gathered);
     }
     if scene.effect.is_some() || scene.settings.effects.refraction.is_some() {
         // Nobody knows what an effect, or a ray that bends elsewhere, makes of a difference.
@@ -38,12 +39,16 @@ pub fn pixel_error(scene: &Scene, error: f64, samples: u32, passes: u32, ends: b
     if error == 0.0 || !error.is_finite() {
         return if error == 0.0 { 0.0 } else { brightest };
     }
-    let opacity = corrected(scene, change(scene, error, |knot| knot.opacity));
+    let opacity = corrected(scene, change(scene, error, |knot| knot.opacity), gathered);
     let color = (0..3).map(|c| change(scene, error, |knot| knot.color[c])).fold(0.0, f64::max);
     // One ray may end a pass before the other.
     let ended = if ends { 1.0 - sampling.termination } else { 0.0 };
-    (brightest * (f64::from(samples) * opacity + ended) + color + brightest * rounding(scene, samples, passes))
-        .min(brightest)
+    // A sample on a slice may stand for several steps.
+    let parts = match sampling.alpha {
+        Alpha::Exponential => gathered.samples.max(gathered.steps - 1.0),
+        Alpha::Paper => gathered.samples,
+    };
+    (brightest * (parts * opacity + ended) + color + brightest * rounding(scene, gathered)).min(brightest)
 }
 
 /// The most by which two pixels of a surface or of lit samples may differ.
@@ -74,19 +79,19 @@ fn brightest_lit(scene: &Scene) -> f64 {
 }
 
 /// What samples and blending of both pictures take from a sum about 1.
-fn rounding(scene: &Scene, samples: u32, passes: u32) -> f64 {
-    let blended = 2.0 * f64::from(passes) * f64::from(blend_rounding(scene.settings.image.accumulate));
-    f64::from(samples) * SAMPLE_ROUNDING + blended
+fn rounding(scene: &Scene, gathered: &Gathered) -> f64 {
+    let blended = 2.0 * gathered.blends * f64::from(blend_rounding(scene.settings.image.accumulate));
+    gathered.samples * SAMPLE_ROUNDING + blended
 }
 
 /// The same where values are shown: each sample is off by the error, and what is summed up is rounded.
-fn value_error(scene: &Scene, values: &OfValues, error: f64, samples: u32, passes: u32) -> f64 {
+fn value_error(scene: &Scene, values: &OfValues, error: f64, gathered: &Gathered) -> f64 {
     if error == 0.0 {
         return 0.0;
     }
-    let lengths = f64::from(samples.saturating_add(1)) * scene.settings.sampling.step / scene.transfer.reference;
+    let lengths = gathered.steps * scene.settings.sampling.step / scene.transfer.reference;
     let [low, high] = scene.field.extremes().map(|x| f64::from(x).abs());
-    (values.magnification)(lengths) * (error + low.max(high) * rounding(scene, samples, passes))
+    (values.magnification)(lengths) * (error + low.max(high) * rounding(scene, gathered))
 }
 
 /// The most that a part of the transfer function changes over so much of x, among the values there are.
@@ -102,7 +107,7 @@ fn change(scene: &Scene, error: f64, of: impl Fn(&Knot) -> f64) -> f64 {
 }
 
 /// What a change of the opacity for the reference length is for a sample.
-fn corrected(scene: &Scene, change: f64) -> f64 {
+fn corrected(scene: &Scene, change: f64, gathered: &Gathered) -> f64 {
     let sampling = &scene.settings.sampling;
     if sampling.alpha == Alpha::Paper || change == 0.0 {
         return change.min(1.0);
@@ -115,6 +120,7 @@ fn corrected(scene: &Scene, change: f64) -> f64 {
         exponent if exponent >= 1.0 => exponent * change,
         exponent => change.powf(exponent).min(exponent * least_clear.powf(exponent - 1.0) * change),
     };
-    let any_length = sampling.last == Last::Partial || sampling.preintegrates();
+    let shorter_than_steps = gathered.samples > gathered.steps;
+    let any_length = sampling.last == Last::Partial || sampling.preintegrates() || shorter_than_steps;
     (if any_length { whole.max(shorter) } else { whole }).min(1.0)
 }

@@ -4,6 +4,7 @@ use crate::auto::{AutoRecord, Estimate};
 use crate::measure::Statistics;
 use crate::measure::record::{Clock, Run};
 use crate::report::comparison::{RunGroup, label};
+use crate::report::cost::{extra_fetches, least_cost};
 use crate::report::number::milliseconds;
 use crate::report::table::{Column, Table};
 
@@ -22,7 +23,7 @@ pub struct ChoiceLine {
 /// The run of `auto` in a group; none where it has none, or nothing beside it.
 pub fn choice_line(group: &RunGroup) -> Option<ChoiceLine> {
     let (run, auto) = group.runs.iter().find_map(|(_, run)| Some((*run, run.auto.as_ref()?)))?;
-    let clock = clock(run);
+    let clock = clock(group);
     let others = group.runs.iter().map(|(_, other)| *other).filter(|other| other.auto.is_none());
     let timed = others.filter_map(|other| Some((label(other), whole_ms(other, auto, clock)?)));
     let (best, best_ms) = timed.min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -30,10 +31,10 @@ pub fn choice_line(group: &RunGroup) -> Option<ChoiceLine> {
     Some(ChoiceLine { chosen: run.method.clone(), ms: whole_ms(run, auto, clock)? + look, best, best_ms })
 }
 
-/// What times of a run are compared by: device time where it was taken and the device is not the CPU, whose own time is
-/// the steadier.
-fn clock(run: &Run) -> Clock {
-    run.saved.as_ref().and_then(|saved| saved.clock).unwrap_or(Clock::Cpu)
+/// What times of a group are compared by, which its runs say: device time where it was taken and the device is not the CPU, whose own
+/// time is the steadier.
+fn clock(group: &RunGroup) -> Clock {
+    group.runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock).unwrap_or(Clock::Cpu)
 }
 
 /// Milliseconds of a frame, with its part of what is built for so many frames.
@@ -44,7 +45,8 @@ fn whole_ms(run: &Run, auto: &AutoRecord, clock: Clock) -> Option<f64> {
 
 /// How far the choices were from the best, in a sentence; none where none was made beside other runs.
 pub fn choices(groups: &[RunGroup]) -> Option<String> {
-    let lines: Vec<ChoiceLine> = groups.iter().filter_map(choice_line).collect();
+    let plain = groups.iter().filter(|group| extra_fetches(group) == least_cost(group, groups));
+    let lines: Vec<ChoiceLine> = plain.filter_map(choice_line).collect();
     let ratios: Vec<f64> = lines.iter().map(|line| line.ms / line.best_ms).collect();
     let Statistics { min, median, max, n, .. } = Statistics::of(&ratios)?;
     let scenes = if n == 1 { "1 scene".to_owned() } else { format!("{n} scenes") };

@@ -11,6 +11,7 @@ pub mod field;
 pub(crate) mod file_name;
 mod fixed;
 mod frustum;
+pub mod gathered;
 pub mod gradients;
 pub mod light;
 pub mod limits;

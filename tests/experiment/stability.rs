@@ -145,9 +145,10 @@ fn every_case_says_what_it_holds_and_why() {
         assert!(!case.tolerance.reason.is_empty() && case.tolerance.absolute >= 0.0, "{}", case.name);
         // What is refused is refused when it is loaded or planned.
         if let Expect::Refused(part) = case.expect {
+            let method = case.methods.first().copied().unwrap_or(method::NN_OMNI.name());
             let refused = case.scene().and_then(|mut scene| {
-                scene.settings.method.name = method::NN_OMNI.name();
-                plan::plan(&scene, method::papers_form(method::NN_OMNI.name()))
+                scene.settings.method.name = method;
+                plan::plan(&scene, method::papers_form(method))
             });
             let error = refused.map(drop).unwrap_err().to_string();
             assert!(error.contains(part), "{}: {error}", case.name);

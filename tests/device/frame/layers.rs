@@ -86,13 +86,14 @@ pub fn tests() -> Vec<Test> {
     for (name, layers, meshes) in [SCENES[0], SCENES[1], SCENES[6], SCENES[11]] {
         let most = (layers + 1).min(MOST_APART);
         let one = test(&format!("layers::{name}::partial segments apart"), move |device| apart(device, meshes, most));
-        // The first is held on every driver; what `matrix` has of it is drawn in all forms there.
-        tests.push(if name == SCENES[0].0 { one } else { one.needs(Need::AnyDriver) });
+        // The first is held on two drivers; what `matrix` has of it is drawn on every one.
+        let need = if name == SCENES[0].0 { Need::Thoroughness } else { Need::AnyDriver };
+        tests.push(one.needs(need));
     }
     let elsewhere = test("layers::partial_segments_apart_in_other_formats", apart_elsewhere);
     tests.push(elsewhere.needs(Need::EveryForm));
-    tests.push(test("layers::ten_thousand_triangles_in_a_pixel", crowded));
-    tests.push(test("layers::fewer_than_there_are", fewer));
+    tests.push(test("layers::ten_thousand_triangles_in_a_pixel", crowded).needs(Need::Thoroughness));
+    tests.push(test("layers::fewer_than_there_are", fewer).needs(Need::Thoroughness));
     tests.push(test("layers::fragments_are_hardly_more", fragments));
     tests
 }

@@ -19,10 +19,10 @@ use crate::harness::{Need, Test, share, test};
 const VIEWS: usize = 12;
 
 /// A real volume is seen from one in so many of them, from others than the next one is.
-const REAL: usize = 2;
+const REAL: usize = 4;
 
 /// The same of a large one.
-const LARGE: usize = 3;
+const LARGE: usize = 6;
 
 /// Volume, transfer function, side of the cells: larger ones for large volumes, whose structures take seconds for each
 /// view otherwise (the law of skipping is held for small cells besides).

@@ -13,11 +13,11 @@ use depthleap::scene::{Camera, Scene};
 use depthleap::vulkan::Device;
 
 use super::scenes::{by, forms, scene};
-use crate::harness::{Test, open, test};
+use crate::harness::{Need, Test, open, test};
 
 pub fn tests() -> Vec<Test> {
     vec![
-        test("recorded::every_method_built_on_host_and_device", every_method),
+        test("recorded::every_method_built_on_host_and_device", every_method).needs(Need::Thoroughness),
         test("recorded::what_is_there_is_passed_over", what_is_there_is_passed_over),
         test("recorded::ends_of_frames", ends_of_frames),
         test("recorded::orbit", orbit),

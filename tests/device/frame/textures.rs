@@ -16,7 +16,7 @@ use depthleap::vulkan::Device;
 
 use super::scenes::{Shot, Stage, VIEWS, by, checked, differing, forms, lawful, scene, seen, shapes};
 use crate::formulas::Random;
-use crate::harness::{Test, share, test};
+use crate::harness::{Need, Test, share, test};
 
 /// Voxels along the sides of the volumes.
 const DIMS: [usize; 3] = [11, 12, 10];
@@ -27,7 +27,7 @@ pub fn tests() -> Vec<Test> {
         test("textures::named_format_is_warned_of", named_format_is_warned_of),
         test("textures::empty_range_shows_x_zero", empty_range_shows_x_zero),
         test("textures::nearest_is_that_of_the_twin", nearest_is_that_of_the_twin),
-        test("textures::nothing_between_labels_shows", nothing_between_labels_shows),
+        test("textures::nothing_between_labels_shows", nothing_between_labels_shows).needs(Need::Thoroughness),
         test("textures::every_label_is_told_from_its_neighbours", every_label_is_told_from_its_neighbours),
     ];
     for (number, (name, make)) in LAWFUL.into_iter().enumerate() {

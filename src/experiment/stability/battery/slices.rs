@@ -1,4 +1,4 @@
-//! Stacks of slices: where they are few, many, seen along a diagonal or from inside, and the ways between them at their ends.
+//! Stacks of slices: few and many, along a diagonal, from inside, and at the widest angles.
 
 use super::super::case::{COLOR, Expect, ROUNDING, SAME_SUM, StabilityCase, Tolerance};
 use super::named;
