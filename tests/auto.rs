@@ -223,6 +223,13 @@ fn values_beyond_the_range_are_looked_at_as_they_are() {
         Look::of(&read::scene_of(&settings, |_| Ok(volume.clone())).unwrap()).unwrap().coarse.open_share()
     };
     assert_eq!([look(-5.0), look(0.5), look(1.5), look(3.0), look(1e30)], [0.0, 0.0, 1.0, 1.0, 1.0]);
+    // Where opacities begin with 0, the value itself shows nothing, and what is next to it does.
+    settings.transfer.points = Some(vec![[0.0, 1.0, 1.0, 1.0, 0.0], [1.0, 1.0, 1.0, 1.0, 0.5]]);
+    let look = |value: f32| {
+        let volume = Volume::new("near", [8; 3], [1.0; 3], Voxels::F32(vec![value; 512])).unwrap();
+        Look::of(&read::scene_of(&settings, |_| Ok(volume.clone())).unwrap()).unwrap().coarse.open_share()
+    };
+    assert_eq!([look(0.0), look(1e-6)], [0.0, 1.0]);
 }
 
 #[test]

@@ -169,7 +169,7 @@ impl Scales<'_> {
         }
         let looks_ahead = method.looks_ahead() && self.look.any_is_free;
         let build_ms = if looks_ahead { build_ms(method, tuning, self.scene) } else { 0.0 };
-        let frame_ms = frame_ms(method, &work, self.scene);
+        let frame_ms = frame_ms(method, tuning, &work, self.scene);
         let settings = &self.scene.settings.method;
         let served = served(method, settings.frames, settings.moving);
         Estimate {

@@ -92,11 +92,10 @@ const SLICES: Costs = Costs {
     ..PASSES
 };
 
-/// Nanoseconds that a sample takes more for each doubling of the voxels beyond [`CACHED_VOXELS`]: fewer of its fetches find their voxels
-/// in the caches.
-const SAMPLE_OF_TWICE: f64 = 1.0;
-/// Voxels of a volume that stays in the caches.
-const CACHED_VOXELS: f64 = (1 << 15) as f64;
+/// Nanoseconds that a fetch takes more for each doubling of the texels beyond [`CACHED`]: fewer are found in the caches.
+const FETCH_OF_TWICE: f64 = 1.0;
+/// Texels of a texture that stays in the caches.
+const CACHED: f64 = (1 << 15) as f64;
 
 /// The part of a sample's colour that each further fetch is taken to cost, which was not measured.
 const FETCH_SHARE: f64 = 0.4;
@@ -105,7 +104,7 @@ const FETCH_SHARE: f64 = 0.4;
 const GRADIENT_FETCHES: f64 = 6.0;
 
 /// Milliseconds that a frame takes, estimated.
-pub fn frame_ms(method: &Method, work: &Work, scene: &Scene) -> f64 {
+pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> f64 {
     let costs = match method.traversal {
         Traversal::FragmentLoop | Traversal::ComputeLoop => &LOOP,
         Traversal::Passes if method.fused => &FUSED,
@@ -113,10 +112,14 @@ pub fn frame_ms(method: &Method, work: &Work, scene: &Scene) -> f64 {
         Traversal::Slices(_) => &SLICES,
     };
     let [each, of_shown] = fetches(scene);
-    let far = SAMPLE_OF_TWICE * (scene.field.values.len() as f64 / CACHED_VOXELS).log2().max(0.0);
-    let sample = sample(&costs.sample, scene) + far + costs.sample.color * FETCH_SHARE * each;
+    let voxels = scene.field.values.len() as f64;
+    let far = |texels: f64| FETCH_OF_TWICE * (texels / CACHED).log2().max(0.0);
+    let sample = sample(&costs.sample, scene) + far(voxels) + costs.sample.color * FETCH_SHARE * each;
     let [surface_pixel, surface_main] = if scene.surface.is_some() { costs.surface } else { [0.0; 2] };
-    let lookup = if method.skips_blocks() { costs.block } else { costs.distance };
+    let lookup = match method.skips_blocks() {
+        true => costs.block,
+        false => costs.distance + far(voxels / f64::from(tuning.cell).powi(3)),
+    };
     let parts = [
         (costs.frame, 1.0),
         (costs.pass, work.passes),

@@ -130,12 +130,20 @@ fn may_end(scene: &Scene, view: &View) -> bool {
     }
 }
 
+/// A part of the scalar range.
+struct Part {
+    /// Whether its values show; none where some do and others do not.
+    shows: Option<bool>,
+    /// How much of the light a sample of them takes.
+    opacity: f64,
+}
+
 /// What samples show, by their values.
 struct Shade<'a> {
     scene: &'a Scene,
     shown: Shown,
-    /// Whether values show, and how much of the light they take in a step: of parts of the scalar range.
-    parts: Vec<(bool, f64)>,
+    /// Parts of the scalar range.
+    parts: Vec<Part>,
     /// T, where opacity ends rays.
     ends_above: Option<f64>,
     /// The value that ends rays which have come to it.
@@ -148,7 +156,9 @@ impl<'a> Shade<'a> {
         let sampling = &scene.settings.sampling;
         let inner = (0..PARTS).map(|part| {
             let [low, middle, high] = [0.0, 0.5, 1.0].map(|more| (part as f64 + more) / PARTS as f64);
-            (shown.anywhere(low, high), opacity(scene, middle))
+            let all = [low, middle, high].iter().all(|x| shown.anywhere(*x, *x));
+            let shows = if all || !shown.anywhere(low, high) { Some(all) } else { None };
+            Part { shows, opacity: opacity(scene, middle) }
         });
         let projection = projection::of(&scene.settings);
         let opaque = projection.ends == Ends::Opaque && scene.surface.is_none();
@@ -160,10 +170,11 @@ impl<'a> Shade<'a> {
 
     fn at(&self, value: f32) -> (bool, f64) {
         let x = f64::from(value);
+        let asked = || self.shown.anywhere(x, x);
         match self.parts.get((value.max(0.0) * PARTS as f32) as usize) {
-            Some(part) if value >= 0.0 => *part,
+            Some(part) if value >= 0.0 => (part.shows.unwrap_or_else(asked), part.opacity),
             // Beyond the scalar range.
-            _ => (self.shown.anywhere(x, x), opacity(self.scene, x)),
+            _ => (asked(), opacity(self.scene, x)),
         }
     }
 

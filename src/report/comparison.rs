@@ -8,6 +8,7 @@ use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::{Clock, CountsRecord, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
+use crate::method::METHODS;
 use crate::scene::settings::{PartialSegments, SamplingSettings};
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
@@ -68,7 +69,8 @@ pub fn label(run: &Run) -> String {
     if run.marks_sections() && !run.settings.method.exit_lookahead {
         label.push_str(" (no lookahead)");
     }
-    if run.marks_sections() && run.settings.method.cell != 1 {
+    let distances = METHODS.into_iter().any(|method| method.name == run.method && method.distance().is_some());
+    if distances && run.settings.method.cell != 1 {
         let _ = write!(label, " (cell {})", run.settings.method.cell);
     }
     if run.marks_sections() && run.settings.method.lookups != 1 {
@@ -91,7 +93,7 @@ impl<'a> RunGroup<'a> {
     /// What the heading says below the scene's name.
     pub fn subtitle(&self) -> String {
         let run = self.first();
-        let (image, sampling) = (&run.settings.image, &run.settings.sampling);
+        let (image, sampling) = (&run.settings.image, sampling_asked(run));
         let mut text = format!(
             "{} x {} pixels, step {}, M = {}, T = {}",
             image.size[0], image.size[1], sampling.step, sampling.samples_per_pass, sampling.termination

@@ -1,5 +1,6 @@
 //! From records to tables, plots and the report.
 
+mod choices;
 mod pages;
 #[path = "../measure/runs.rs"]
 mod runs;

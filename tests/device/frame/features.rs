@@ -279,5 +279,11 @@ fn runs_are_held_against_the_law_of_skipping(device: &Arc<Device>) {
     measured[2].picture.pixels[77][3] += 0.5;
     law_of_skipping(&mut measured);
     assert_eq!(measured[2].differing, Some(1));
+    // A first run of another M is a rule for its like alone.
+    measured[0].method = measured[1].method;
+    measured[0].run.settings.sampling.samples_per_pass += 1;
+    measured.iter_mut().for_each(|one| one.differing = None);
+    law_of_skipping(&mut measured);
+    assert_eq!(measured.iter().map(|one| one.differing).collect::<Vec<_>>(), [None, None, Some(1)]);
     assert!(measured[2].run.notes.iter().any(|note| note.contains("1 pixels differ")), "{:?}", measured[2].run.notes);
 }
