@@ -145,6 +145,11 @@ impl Run {
         self.method.parse().ok().and_then(method::find).is_some_and(Method::marks_sections)
     }
 
+    /// Whether its method looks up distances, of cells of one size or another.
+    pub fn looks_up_distances(&self) -> bool {
+        self.method.parse().ok().and_then(method::find).is_some_and(|method| method.distance().is_some())
+    }
+
     /// What its fragments stand for; none where it runs on no device.
     pub fn fragment_kind(&self) -> Option<FragmentKind> {
         FragmentKind::of(&self.method)

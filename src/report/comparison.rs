@@ -8,7 +8,6 @@ use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::record::{Clock, CountsRecord, Run, Saved};
 use crate::measure::saving;
 use crate::measure::timing::Timing;
-use crate::method::METHODS;
 use crate::scene::settings::{PartialSegments, SamplingSettings};
 
 /// The method the others are measured against: the best the papers had before near-neighbor skipping [KW03 §2.3].
@@ -69,8 +68,7 @@ pub fn label(run: &Run) -> String {
     if run.marks_sections() && !run.settings.method.exit_lookahead {
         label.push_str(" (no lookahead)");
     }
-    let distances = METHODS.into_iter().any(|method| method.name == run.method && method.distance().is_some());
-    if distances && run.settings.method.cell != 1 {
+    if run.looks_up_distances() && run.settings.method.cell != 1 {
         let _ = write!(label, " (cell {})", run.settings.method.cell);
     }
     if run.marks_sections() && run.settings.method.lookups != 1 {
