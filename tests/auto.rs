@@ -282,7 +282,12 @@ fn what_a_device_has_not_or_not_right_is_not_chosen() {
     let record = choose(&scene, &facts(|method| (method.marks_sections(), None))).unwrap();
     assert!(record.weighed.iter().all(|estimate| !row(&estimate.method).marks_sections()));
     assert!(record.weighed.iter().any(|estimate| estimate.method == "rc-ert"));
-    assert!(record.sentences().iter().any(|line| line.contains("methods cull in a way that this device has not")));
+    assert!(record.sentences().iter().any(|line| line.contains("whose way to cull this device lacks or gets wrong")));
+    // Asked for a way to cull that the device lacks, it is chosen all the same, so that the device can say what it lacks.
+    let mut bounds = scene.clone();
+    bounds.settings.method.cull = Cull::Bounds;
+    let record = choose(&bounds, &facts(|_| (true, None))).unwrap();
+    assert!(record.weighed.iter().all(|estimate| !row(&estimate.method).loops()) && !record.weighed.is_empty());
 }
 
 #[test]

@@ -83,11 +83,11 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
     let asked = &scene.settings.method;
     let of_passes = |method: &Method| scene.settings.sampling.passes == 0 || takes_passes(method);
-    let fits = |method: &&'static Method| method.on_device && culls_as_asked(method, asked) && of_passes(method);
-    for method in METHODS.into_iter().filter(fits) {
-        if facts.of(method).is_some_and(|facts| facts.unfit) {
-            continue;
-        }
+    let asked_for = |method: &&'static Method| method.on_device && culls_as_asked(method, asked) && of_passes(method);
+    let (unfit, fit): (Vec<_>, Vec<_>) =
+        METHODS.into_iter().filter(asked_for).partition(|method| facts.of(method).is_some_and(|facts| facts.unfit));
+    // Where nothing else is left, the device says what it lacks.
+    for method in if fit.is_empty() { unfit } else { fit } {
         match draws(method, scene) {
             Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings))),
             Err(e) => refused = Some(e),
@@ -246,8 +246,8 @@ fn reasons(look: &Look, facts: &DeviceFacts, chosen: &Estimate) -> Vec<String> {
     let near_neighbor = METHODS.into_iter().filter(|method| method.marks_sections());
     reasons.extend(near_neighbor.filter_map(|method| facts.of(method)?.form.clone()).next());
     let unfit = facts.methods.iter().filter(|facts| facts.unfit).count();
-    reasons
-        .extend((unfit > 0).then(|| format!("{unfit} methods cull in a way that this device has not, or not right")));
+    let lacking = || format!("{unfit} methods are left out, whose way to cull this device lacks or gets wrong");
+    reasons.extend((unfit > 0).then(lacking));
     let late: Vec<&MethodFacts> = facts.methods.iter().filter(|facts| facts.culls_late.is_some()).collect();
     let of_chosen = late.iter().find(|facts| facts.method == chosen.method);
     let one = of_chosen.or(late.first()).and_then(|facts| Some((facts.method, facts.culls_late.as_ref()?)));

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::coarse::Coarse;
 use crate::error::Result;
-use crate::feature::comes_above;
+use crate::feature::rays_may_end;
 use crate::math::blend::Blend;
 use crate::math::opacity::corrected_opacity;
 use crate::math::ray::{ViewRay, cut_interval};
@@ -117,17 +117,11 @@ impl Look {
     }
 }
 
-/// Whether rays of a view may end, as planners decide it.
+/// Whether rays of a view may end, as planners decide it of those of ray casters.
 fn may_end(scene: &Scene, view: &View) -> bool {
-    let below_one = scene.settings.sampling.termination < 1.0;
-    match projection::of(&scene.settings).ends {
-        _ if !scene.settings.method.planner => true,
-        Ends::Opaque if scene.surface.is_some() => scene.ends_at_surfaces() || below_one,
-        Ends::Opaque if !scene.polygons.triangles.is_empty() || scene.effect.is_some() => below_one,
-        Ends::Opaque => comes_above(scene, &Gathered::of(scene, view, 1)),
-        Ends::Reached => true,
-        Ends::Never(_) => false,
-    }
+    let adds = !scene.polygons.transparent().is_empty() || scene.effect.is_some();
+    let gathered = || Gathered::of(scene, view, 1);
+    !scene.settings.method.planner || rays_may_end(scene, scene.surface.is_some(), adds, gathered)
 }
 
 /// A part of the scalar range.

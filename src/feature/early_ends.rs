@@ -4,7 +4,7 @@ use super::effect::EFFECT;
 use super::reasons::never_ends;
 use super::surface::ISO_SURFACE;
 use crate::part::rows::{Context, Feature, Hook, Why};
-use crate::projection::Ends;
+use crate::projection::{self, Ends};
 use crate::scene::gathered::Gathered;
 use crate::scene::settings::Alpha;
 use crate::scene::{Scene, TransferFunction};
@@ -22,18 +22,24 @@ fn needed(context: &Context) -> Result<(), Why> {
     Err(if context.form.is_some() || context.method.loops() { never_ends(context).into() } else { Why::Untold })
 }
 
-/// Whether any ray may end early: where its opacity comes above T, or as the projection has it.
+/// Whether any ray may end early.
 pub fn may_end(context: &Context) -> bool {
-    !context.plans()
-        || match context.projection().ends {
-            // A surface is opaque.
-            Ends::Opaque if context.has(&ISO_SURFACE) => context.scene.settings.sampling.termination < 1.0,
-            // Polygons and effects add to the opacity as much as they like.
-            Ends::Opaque if context.blends || context.has(&EFFECT) => context.scene.settings.sampling.termination < 1.0,
-            Ends::Opaque => comes_above(context.scene, &Gathered::of(context.scene, context.view, context.passes)),
-            Ends::Reached => true,
-            Ends::Never(_) => false,
-        }
+    let gathered = || Gathered::of(context.scene, context.view, context.passes);
+    // Polygons and effects add to the opacity as much as they like.
+    let adds = context.blends || context.has(&EFFECT);
+    !context.plans() || rays_may_end(context.scene, context.has(&ISO_SURFACE), adds, gathered)
+}
+
+/// Whether any ray of a scene may end early: where its opacity comes above T, or as the projection has it. `surface`: rays look for
+/// surfaces; `adds`: something adds to the opacity of the volume; `gathered`: the most that any ray gathers.
+pub fn rays_may_end(scene: &Scene, surface: bool, adds: bool, gathered: impl FnOnce() -> Gathered) -> bool {
+    match projection::of(&scene.settings).ends {
+        // A surface is opaque.
+        Ends::Opaque if surface || adds => scene.settings.sampling.termination < 1.0,
+        Ends::Opaque => comes_above(scene, &gathered()),
+        Ends::Reached => true,
+        Ends::Never(_) => false,
+    }
 }
 
 /// What f32 takes from a value by interpolation, or from an opacity by a sample: some units in the last place.
@@ -41,7 +47,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Whether the opacity of any ray may come above T: a bound from the greatest opacity that any value has and what the longest ray
 /// gathers, rounding included.
-pub fn comes_above(scene: &Scene, longest: &Gathered) -> bool {
+fn comes_above(scene: &Scene, longest: &Gathered) -> bool {
     let sampling = &scene.settings.sampling;
     // Opacities never exceed 1.
     if sampling.termination >= 1.0 {

@@ -40,7 +40,7 @@ pub use clip_volume::CLIP_VOLUME;
 pub use counting::{BATCH, COUNTING};
 pub use decisions::{DECISIONS, MARK_COPIES};
 pub use distances::DISTANCES;
-pub use early_ends::{EARLY_ENDS, comes_above, may_end};
+pub use early_ends::{EARLY_ENDS, may_end, rays_may_end};
 pub use effect::EFFECT;
 pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
