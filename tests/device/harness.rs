@@ -38,6 +38,8 @@ pub enum Need {
     AnyDriver,
     /// The time of a driver that others do not stand in for.
     Thoroughness,
+    /// A driver whose turn the test of this number is.
+    Turn(usize),
     /// A driver that draws every scene in every form.
     EveryForm,
 }
@@ -96,25 +98,25 @@ pub fn least() -> bool {
     some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
 }
 
-/// Whether another driver takes one half of the methods and views, so that this one, which has every form, takes the other.
-pub fn other_half() -> bool {
+/// Whether another driver takes its share of the methods and views, so that this one, which has every form, takes others.
+pub fn beside() -> bool {
     !some_forms() && std::env::var_os(DRIVER_ONLY).is_some()
 }
 
-/// Drivers of which each takes as much as the others.
-const SHARE: usize = 2;
+/// One in so many that a driver takes beside another one, which takes others; the rest is left to the next scene.
+const SHARE: usize = 3;
 
 /// One in so many that a driver takes where others do more of everything.
 const LEAST_SHARE: usize = 12;
 
-/// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every other one, by `turn` from
-/// the first or second on, and those that the other one leaves out; where other drivers do more of everything every twelfth. One at
-/// least. Scenes that count their turns have all of them between them.
+/// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every third one, by `turn` from
+/// the first, second or third on, and the next ones on the other driver; where other drivers do more of everything every twelfth. One
+/// at least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();
     let (every, turn) = match () {
         () if least() => (LEAST_SHARE, turn),
-        () if other_half() => (SHARE, turn + 1),
+        () if beside() => (SHARE, turn + 1),
         () if some_forms() => (SHARE, turn),
         () => (1, 0),
     };
@@ -212,8 +214,10 @@ pub fn run(tests: Vec<Test>) -> ExitCode {
                     "LEFT TO OTHER SCENES: two of three forms of a method, and every other loop, in the matrix ({ALL_FORMS})"
                 );
             }
-            if other_half() {
-                eprintln!("LEFT TO ANOTHER DRIVER: every other method of a scene and every other side ({DRIVER_ONLY})");
+            if beside() {
+                eprintln!(
+                    "LEFT TO ANOTHER DRIVER: two of three methods and sides of a scene, and every other test of two ({DRIVER_ONLY})"
+                );
             }
             if some_forms() {
                 eprintln!(
@@ -318,6 +322,15 @@ fn lacks(need: &Need, device: &Device) -> Option<String> {
             .then(|| "a device that computes on queues of another family".to_owned()),
         Need::Thoroughness => {
             least().then(|| format!("what takes minutes, which {SOME_FORMS} and {DRIVER_ONLY} leave to another driver"))
+        }
+        Need::Turn(number) => {
+            let (every, mine) = match () {
+                () if least() => (4, 0),
+                () if beside() => (2, 1),
+                () if some_forms() => (2, 0),
+                () => (1, 0),
+            };
+            (number % every != mine).then(|| format!("its turn on this driver ({SOME_FORMS}, {DRIVER_ONLY})"))
         }
         Need::EveryForm => {
             some_forms().then(|| format!("a driver that draws in every form: {SOME_FORMS} leaves it to another one"))

@@ -3,9 +3,9 @@
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{ClipSettings, Last, MeshSettings, Offset};
 
-use super::layers::{held, left_out_in_turn, mesh, most_layers, view_for};
+use super::layers::{held, mesh, most_layers, view_for};
 use super::scenes::{exactly, scene};
-use crate::harness::{Test, test};
+use crate::harness::{Need, Test, test};
 
 /// Clip geometry, and the meshes beside it.
 type Geometry = fn() -> (Vec<ClipSettings>, Vec<MeshSettings>);
@@ -74,7 +74,7 @@ pub fn tests() -> Vec<Test> {
                 scene.settings.layers.most = most_layers(&scene) + 1;
                 held(device, &scene, view_for(last), turn);
             });
-            tests.push(left_out_in_turn(one, number + turn));
+            tests.push(one.needs(Need::Turn(number + turn)));
         }
     }
     tests

@@ -18,7 +18,7 @@ use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
 
 use super::scenes::{Stage, VIEWS, by, checked, differing, forms, large, lawful, right_forms, scene, seen};
-use crate::harness::{Need, Test, least, other_half, share, some_forms, test};
+use crate::harness::{Need, Test, beside, least, share, some_forms, test};
 
 type Change = fn(&mut Settings);
 
@@ -201,7 +201,7 @@ fn drawn_here(scene: &Scene, view: usize, number: usize) -> bool {
     let odd = !(view + number).is_multiple_of(2);
     match () {
         () if large(scene) || least() => view == number % VIEWS.len(),
-        () if other_half() => !odd,
+        () if beside() => !odd,
         () => odd || !some_forms(),
     }
 }

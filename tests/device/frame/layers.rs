@@ -80,7 +80,8 @@ pub fn tests() -> Vec<Test> {
                 assert_eq!(most_layers(&scene), layers, "layers of the scene");
                 held(device, &scene, view_for(last), turn);
             });
-            tests.push(left_out_in_turn(one, number + turn));
+            // One of the two of each scene is on either of two drivers.
+            tests.push(one.needs(Need::Turn(number + turn)));
         }
     }
     for (name, layers, meshes) in [SCENES[0], SCENES[1], SCENES[6], SCENES[11]] {
@@ -96,11 +97,6 @@ pub fn tests() -> Vec<Test> {
     tests.push(test("layers::fewer_than_there_are", fewer).needs(Need::Thoroughness));
     tests.push(test("layers::fragments_are_hardly_more", fragments));
     tests
-}
-
-/// Every other test, one of the two of each scene, is left to other drivers where these do more of everything.
-pub fn left_out_in_turn(test: Test, number: usize) -> Test {
-    if number.is_multiple_of(2) { test } else { test.needs(Need::Thoroughness) }
 }
 
 /// Whole samples are seen head-on and parts of samples aslant, so that each scene is seen from both places.
