@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use cpu_time::ProcessTime;
+use depthleap::scene::shells::{Faces, polygons};
 use depthleap::scene::{Field, Settings};
-use depthleap::structure::shell::polygons;
 use depthleap::{Result, read};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
@@ -44,7 +44,7 @@ fn time(name: &str, field: &Field, level: f64) -> Result<()> {
     let mut triangles = 0;
     for _ in 0..RUNS {
         let begin = ProcessTime::now();
-        triangles = std::hint::black_box(polygons(field, field.x(level))?).triangles.len();
+        triangles = std::hint::black_box(polygons(field, field.x(level), Faces::Open)?).triangles.len();
         ours.push(begin.elapsed().as_secs_f64() * 1e3);
     }
     ours.sort_by(f64::total_cmp);

@@ -7,9 +7,9 @@ use std::collections::{BTreeSet, HashMap};
 use depthleap::math::interpolate::trilinear;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Mesh;
+use depthleap::scene::shells::{CASES, EDGES, Faces, Lattice, MOST_TRIANGLES, edge, polygons};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Volume};
-use depthleap::structure::shell::{CASES, EDGES, Lattice, MOST_TRIANGLES, edge, polygons};
 use glam::DVec3;
 use random::Random;
 
@@ -78,7 +78,7 @@ fn is_inside_a_hole(field: &Field, place: DVec3) -> bool {
 
 /// Closed but on the box and at holes, no vertex off the level, and each number of a vertex one that there is.
 fn check(field: &Field, level: f32, what: &str) -> Mesh {
-    let shell = polygons(field, level).unwrap();
+    let shell = polygons(field, level, Faces::Open).unwrap();
     let used: BTreeSet<u32> = shell.triangles.iter().flatten().copied().collect();
     assert!(used.into_iter().eq(0..shell.corners.len() as u32), "{what}: each vertex is one of a triangle");
     for triangle in &shell.triangles {
@@ -89,6 +89,11 @@ fn check(field: &Field, level: f32, what: &str) -> Mesh {
     for ends in open_edges(&shell) {
         let places = ends.map(|i| shell.corners[i as usize]);
         assert!(on_the_box(field, places) || at_a_hole(field, places), "{what}: the edge {places:?} is open");
+    }
+    let closed = polygons(field, level, Faces::Closed).unwrap();
+    for ends in open_edges(&closed) {
+        let places = ends.map(|i| closed.corners[i as usize]);
+        assert!(at_a_hole(field, places), "{what}: the edge {places:?} is open where shells are closed");
     }
     let span = field.values.iter().fold(0.0f32, |most, value| most.max(value.abs()));
     for vertex in &shell.corners {
@@ -169,7 +174,7 @@ fn what_stands_for_a_hole_makes_no_surface() {
     // All voxels but one are 0.9, and that one is filled with 0.
     let mut values = vec![0.9; 125];
     values[62] = f32::NAN;
-    let shell = polygons(&field_of([5; 3], [1.0; 3], values), 0.5).unwrap();
+    let shell = polygons(&field_of([5; 3], [1.0; 3], values), 0.5, Faces::Open).unwrap();
     assert!(shell.corners.is_empty() && shell.triangles.is_empty(), "{} vertices", shell.corners.len());
 }
 
@@ -206,7 +211,7 @@ fn a_sphere_is_one_surface_that_converges_by_order_two() {
     let radius = 0.31;
     let rule = 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
     let off = [16, 32, 64].map(|side| {
-        let shell = polygons(&ball(side, radius), 0.5).unwrap();
+        let shell = polygons(&ball(side, radius), 0.5, Faces::Open).unwrap();
         assert_eq!(open_edges(&shell), Vec::<[u32; 2]>::new());
         let edges = directed_edges(&shell).len() / 2;
         // Euler's number of a sphere.
@@ -224,16 +229,36 @@ fn a_level_that_no_value_crosses_has_no_polygons() {
     let field = ball(8, 0.3);
     let [low, high] = field.extremes();
     for level in [low, low - 1.0, high + 1.0, high.next_up(), f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        assert_eq!(polygons(&field, level).unwrap().triangles, Vec::<[u32; 3]>::new(), "{level}");
+        assert_eq!(polygons(&field, level, Faces::Open).unwrap().triangles, Vec::<[u32; 3]>::new(), "{level}");
     }
-    assert!(!polygons(&field, high).unwrap().triangles.is_empty(), "the greatest value is not below the level");
-    assert!(!polygons(&field, low.next_up()).unwrap().triangles.is_empty());
+    assert!(
+        !polygons(&field, high, Faces::Open).unwrap().triangles.is_empty(),
+        "the greatest value is not below the level"
+    );
+    assert!(!polygons(&field, low.next_up(), Faces::Open).unwrap().triangles.is_empty());
+}
+
+/// A shell of all voxels is the box, and what all faces cut off is closed.
+#[test]
+fn closed_shells_enclose_what_is_not_below_the_level() {
+    let field = ball(8, 0.3);
+    let [low, high] = field.extremes();
+    let of = |level: f32| enclosed(&polygons(&field, level, Faces::Closed).unwrap());
+    let box_of_all = field.extent().element_product();
+    for level in [low, low - 1.0, f32::NEG_INFINITY] {
+        assert!((of(level) - box_of_all).abs() < 1e-6 * box_of_all, "{level}: {}", of(level));
+    }
+    let most = low + 0.1 * (high - low);
+    assert!(of(most) < box_of_all && of(most) > 0.5 * box_of_all, "{} of {box_of_all}", of(most));
+    for level in [high.next_up(), f32::NAN, f32::INFINITY] {
+        assert_eq!(polygons(&field, level, Faces::Closed).unwrap().triangles, Vec::<[u32; 3]>::new(), "{level}");
+    }
 }
 
 #[test]
 fn nodes_lie_at_voxels_and_on_the_faces() {
     let field = field_of([3, 1, 2], [1.0, 2.0, 0.5], (0..6).map(|i| i as f32).collect());
-    let lattice = Lattice::new(&field);
+    let lattice = Lattice::new(&field, Faces::Open);
     assert_eq!(lattice.nodes(), [5, 3, 4]);
     let half = 0.5 * field.extent();
     for (node, place) in [([0; 3], -half), ([4, 2, 3], half), ([1; 3], -half + 0.5 * field.voxel())] {

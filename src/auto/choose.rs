@@ -83,7 +83,10 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
     let asked = &scene.settings.method;
     let of_passes = |method: &Method| scene.settings.sampling.passes == 0 || takes_passes(method);
-    let asked_for = |method: &&'static Method| method.on_device && culls_as_asked(method, asked) && of_passes(method);
+    // Shells have a picture of their own.
+    let asked_for = |method: &&'static Method| {
+        method.on_device && method.takes_samples() && culls_as_asked(method, asked) && of_passes(method)
+    };
     let (unfit, fit): (Vec<_>, Vec<_>) =
         METHODS.into_iter().filter(asked_for).partition(|method| facts.of(method).is_some_and(|facts| facts.unfit));
     // Where nothing else is left, the device says what it lacks.

@@ -108,7 +108,8 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
     let costs = match method.traversal {
         Traversal::FragmentLoop | Traversal::ComputeLoop => &LOOP,
         Traversal::Passes if method.fused => &FUSED,
-        Traversal::Passes => &PASSES,
+        // Nobody weighs shells.
+        Traversal::Passes | Traversal::Shells => &PASSES,
         Traversal::Slices(_) => &SLICES,
     };
     let [each, of_shown] = fetches(scene);

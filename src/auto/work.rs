@@ -160,7 +160,8 @@ impl Walk<'_> {
                 Trace { passes: vec![pass], shown: self.shown(0, self.ray.seen.len()) }
             }
             Traversal::Passes | Traversal::Slices(_) if self.decides() => self.in_passes(),
-            Traversal::Passes | Traversal::Slices(_) => self.in_all_passes(),
+            // Nobody weighs shells.
+            Traversal::Passes | Traversal::Slices(_) | Traversal::Shells => self.in_all_passes(),
         }
     }
 

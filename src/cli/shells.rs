@@ -16,17 +16,17 @@ use crate::read;
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table, TextLayout};
 use crate::scene::Field;
-use crate::scene::settings::finite_number;
-use crate::structure::shell::polygons;
+use crate::scene::settings::{self, finite_number};
+use crate::scene::shells::{Faces, in_the_middle, polygons};
 
 /// The most levels at once.
-const MOST_LEVELS: usize = 256;
+const MOST_LEVELS: usize = settings::MOST_LEVELS as usize;
 
 /// Iso-surfaces of a volume as polygons; needs no GPU
 ///
 /// Finds the shells of a volume, a surface for each level, by marching cubes between the voxels' centres and out to the faces of the
 /// volume [Heidrich95 §2], and writes them to one PLY file: triangles with shared vertices in volume space, each vertex with its level
-/// as `value`. Surfaces are closed except at the faces of the volume and at holes (--nan hole); where voxels lie at the level itself,
+/// as `value`. Surfaces are closed except at holes (--nan hole) and, without --closed, at the faces of the volume; where voxels lie at the level itself,
 /// vertices coincide and some triangles have no area. Clip planes and clip geometry take nothing away. Prints polygons and CPU time of
 /// each level to standard error.
 #[derive(Debug, Args)]
@@ -48,6 +48,9 @@ pub struct ShellsCommand {
     /// Number of levels, each in the middle of an equal part of the scalar range (--range)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
+    /// Close shells at the faces of the volume
+    #[arg(long)]
+    closed: bool,
     #[command(flatten)]
     scene_options: SceneOptions,
 }
@@ -63,10 +66,11 @@ impl ShellsCommand {
             columns: ["level", "vertices", "triangles", "CPU ms"].map(Column::numbers).to_vec(),
             ..Table::default()
         };
+        let faces = if self.closed { Faces::Closed } else { Faces::Open };
         let mut shells = Vec::with_capacity(levels.len());
         for level in levels {
             let begin = ProcessTime::now();
-            let shell = polygons(field, field.x(level))?;
+            let shell = polygons(field, field.x(level), faces)?;
             let milliseconds = begin.elapsed().as_secs_f64() * 1e3;
             let counts = [shell.corners.len(), shell.triangles.len()].map(|n| thousands(n as u64));
             let row = [vec![level.to_string()], counts.to_vec(), vec![format!("{milliseconds:.1}")]].concat();
@@ -97,14 +101,8 @@ impl ShellsCommand {
             let problem = format!("asks for {number} levels");
             return Err(Error::usage(option, problem, format!("ask for 1 to {MOST_LEVELS}")));
         }
-        let [low, high] = field.range;
-        let middle = |i: usize| {
-            let part = (i as f64 + 0.5) / number as f64;
-            // Not by the difference, which may overflow.
-            low * (1.0 - part) + high * part
-        };
         let mut levels = match self.count {
-            Some(count) => (0..count).map(middle).collect(),
+            Some(count) => in_the_middle(count, field.range),
             None => self.levels.clone(),
         };
         levels.sort_by(f64::total_cmp);

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::part::Constant;
 use crate::part::resource::Resource;
-use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::part::rows::{Context, Feature, Hook, Method, Why};
 use crate::projection;
 use crate::resource;
 use crate::scene::Scene;
@@ -101,9 +101,10 @@ pub fn clip_meshes(context: &Context) -> [Constant; 2] {
 ///
 /// # Errors
 /// When its projection has no colours to blend theirs with, or no parts of rays.
-pub fn check(scene: &Scene) -> Result<()> {
+pub fn check(scene: &Scene, method: &Method) -> Result<()> {
     let row = projection::of(&scene.settings);
-    if scene.polygons.is_empty() || !row.shows_values() {
+    // Of shells each is brighter than the surfaces behind it, or is added to them.
+    if scene.polygons.is_empty() || !row.shows_values() || !method.takes_samples() {
         return Ok(());
     }
     let input = format!("projection.kind (--projection {})", row.name);

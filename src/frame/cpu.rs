@@ -121,10 +121,9 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         levels: projection.levels_in_x(scene),
         surface_values: &surface_values,
         lights: &lights,
+        raster: 0.5f64.powi(sub_pixel_bits as i32),
     };
-    let raster = 0.5f64.powi(sub_pixel_bits as i32);
-    let rows: Vec<(CpuFrame, Vec<u64>)> =
-        (0..height).into_par_iter().map(|row| run_row(&twin, plan, row, raster)).collect();
+    let rows: Vec<(CpuFrame, Vec<u64>)> = (0..height).into_par_iter().map(|row| run_row(&twin, plan, row)).collect();
     let mut frame = CpuFrame::empty(plan);
     let mut fragments = vec![0; plan.frame().len()];
     for (row, of_row) in rows {
@@ -172,7 +171,7 @@ impl CpuFrame {
 }
 
 /// A row of pixels, and the fragments that each step of the frame has there.
-fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u64>) {
+fn run_row(twin: &Twin, plan: &Plan, row: u32) -> (CpuFrame, Vec<u64>) {
     let mut frame = CpuFrame::empty(plan);
     let mut fragments = vec![0; plan.frame().len()];
     for column in 0..plan.view.size[0] {
@@ -181,7 +180,12 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32, raster: f64) -> (CpuFrame, Vec<u6
         for (step, count) in plan.frame().iter().zip(&mut fragments) {
             let of_step = match &step.work {
                 Work::Draw(draw) => {
-                    let met = hits.of(draw.geometry, twin.scene, &plan.view, Sample { pixel: [column, row], raster });
+                    let met = hits.of(
+                        draw.geometry,
+                        twin.scene,
+                        &plan.view,
+                        Sample { pixel: [column, row], raster: twin.raster },
+                    );
                     (met.fragments > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
                 }
                 Work::Pixels(pixels) => plan.view.region.contains([column, row]).then_some(Some(pixels.twin)),

@@ -230,8 +230,8 @@ impl GpuFrame {
         let statistics = self.queries.statistics(measure);
         commands.begin_render_pass(&objects.render_pass, &objects.framebuffer, area, &objects.clears);
         commands.bind_graphics(&objects.pipeline, &objects.set);
-        // One depth for the whole box, to the bit.
-        commands.viewport(self.full_area(), [draw.depth, draw.depth]);
+        // One depth for the whole box, to the bit, or the matrix of a shell.
+        commands.viewport(self.full_area(), draw.depths);
         commands.scissor(area);
         if draw.test.bounds {
             commands.depth_bounds(draw.least, draw.bound);

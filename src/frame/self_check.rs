@@ -185,6 +185,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
         planes,
         clip_volume: None,
         surface: None,
+        shells: None,
         lights,
         environment: None,
         backdrop: None,

@@ -4,10 +4,12 @@
 
 mod polygons;
 mod screen;
+mod shells;
 mod slices;
 mod volume_box;
 
 pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
+pub use shells::{SHELL_SURFACES, SHELLS};
 pub use slices::{SLICES, SLICES_CUT};
 pub use volume_box::{BOX_BACK, BOX_FRONT};

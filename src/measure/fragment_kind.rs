@@ -14,6 +14,8 @@ pub enum FragmentKind {
     Pixel,
     /// A single sample.
     Sample,
+    /// A place where a ray meets a shell.
+    Crossing,
 }
 
 impl FragmentKind {
@@ -25,6 +27,7 @@ impl FragmentKind {
             Traversal::FragmentLoop => Self::Ray,
             Traversal::ComputeLoop => Self::Pixel,
             Traversal::Slices(_) => Self::Sample,
+            Traversal::Shells => Self::Crossing,
         })
     }
 
@@ -35,6 +38,7 @@ impl FragmentKind {
             Self::Ray => "rays",
             Self::Pixel => "invocations",
             Self::Sample => "samples",
+            Self::Crossing => "crossings",
         }
     }
 
@@ -47,6 +51,7 @@ impl FragmentKind {
                 Some("fragments are invocations of a compute shader, one for each pixel that the box may cover")
             }
             Self::Sample => Some("a fragment is a sample: it has one on each slice"),
+            Self::Crossing => Some("a fragment is a place where a ray meets a shell"),
         }
     }
 
@@ -56,6 +61,7 @@ impl FragmentKind {
             Self::Segment => None,
             Self::Ray | Self::Pixel => Some("a fragment is a ray here, not a segment of one"),
             Self::Sample => Some("a fragment is a sample here, not a segment of several"),
+            Self::Crossing => Some("a fragment is a place where a ray meets a shell here, not a segment of samples"),
         }
     }
 }

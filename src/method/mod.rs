@@ -10,6 +10,7 @@ mod rc;
 mod rc_block;
 mod rc_ert;
 mod rows;
+mod shells;
 mod single_pass;
 mod slices;
 
@@ -19,6 +20,7 @@ pub use near_neighbor::{NN_CONE, NN_DIRECTIONAL, NN_OMNI, NN_OPTIMAL};
 pub use rc::RC;
 pub use rc_block::RC_BLOCK;
 pub use rc_ert::RC_ERT;
+pub use shells::SHELLS;
 pub use single_pass::{
     SINGLE_PASS, SINGLE_PASS_BLOCK, SINGLE_PASS_BLOCK_COMPUTE, SINGLE_PASS_COMPUTE, SINGLE_PASS_DIRECTIONAL,
     SINGLE_PASS_DIRECTIONAL_COMPUTE, SINGLE_PASS_OMNI, SINGLE_PASS_OMNI_COMPUTE,
@@ -40,7 +42,7 @@ use crate::scene::Scene;
 use crate::scene::settings::MethodName;
 
 /// Every method, in the order of tables and of the help.
-pub const METHODS: [&Method; 32] = [
+pub const METHODS: [&Method; 33] = [
     &RC,
     &RC_ERT,
     &RC_BLOCK,
@@ -72,6 +74,7 @@ pub const METHODS: [&Method; 32] = [
     &SLICES_SHELLS_FTB,
     &SLICES_SHELLS_BLOCK,
     &SLICES_SHELLS_OMNI,
+    &SHELLS,
     &CPU,
 ];
 

@@ -39,6 +39,8 @@ pub enum Traversal {
     ComputeLoop,
     /// Slices of the volume, a sample each [Thesis §3.4].
     Slices(Stack),
+    /// Nothing: nested iso-surfaces are drawn as polygons [Heidrich95].
+    Shells,
 }
 
 /// A renderer. The list of them is `crate::method::METHODS`.
@@ -128,8 +130,13 @@ impl Method {
     pub fn stack(&self) -> Option<Stack> {
         match self.traversal {
             Traversal::Slices(stack) => Some(stack),
-            Traversal::Passes | Traversal::FragmentLoop | Traversal::ComputeLoop => None,
+            Traversal::Passes | Traversal::FragmentLoop | Traversal::ComputeLoop | Traversal::Shells => None,
         }
+    }
+
+    /// Whether its picture is made of samples: those of other methods differ from it by more than samples of another step do.
+    pub fn takes_samples(&self) -> bool {
+        self.traversal != Traversal::Shells
     }
 
     /// Whether slices are drawn back to front, all of them in one pass.
@@ -284,6 +291,9 @@ impl<'a> Context<'a> {
 
     /// Whether the frame has a feature, else why not.
     pub fn answer(&self, feature: &Feature) -> Result<(), Why> {
+        if matches!(feature.at, Hook::Sample | Hook::Decide) && !self.method.takes_samples() {
+            return Err(Why::Untold);
+        }
         // It differs from part to part of a ray, and is soon answered.
         if matches!(feature.at, Hook::Ray | Hook::RayEnd) {
             return (feature.needed)(self);

@@ -27,7 +27,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
         accesses,
         Work::Draw(Draw {
             geometry: &BOX_FRONT,
-            depth: ALIVE,
+            depths: [ALIVE; 2],
             least: 0.0,
             bound: ALIVE,
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },

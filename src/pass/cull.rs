@@ -37,7 +37,7 @@ fn only_test(draw: &mut Draw, accesses: &mut Vec<Access>, cull: Cull, depth: f32
             accesses.push(Usage::DepthTest.of(resource::STORED));
         }
         Cull::Ztest => {
-            draw.depth = depth;
+            draw.depths = [depth; 2];
             draw.test = DepthTest { compare: Some(compare), write: false, bounds: false };
             accesses.push(Usage::DepthTest.of(resource::STORED));
         }
@@ -70,6 +70,6 @@ pub fn mark_into(draw: &mut Draw, accesses: &mut Vec<Access>, mark: Mark, compar
     }
     accesses.retain(|a| a.resource != resource::STORED);
     accesses.push(Usage::DepthWrite.of(resource::STORED));
-    draw.depth = if mark == Mark::FragdepthAny { UPPER_HALF } else { 1.0 };
+    draw.depths = [if mark == Mark::FragdepthAny { UPPER_HALF } else { 1.0 }; 2];
     draw.test = DepthTest { compare: Some(compare), write: true, bounds: draw.test.bounds };
 }

@@ -22,6 +22,7 @@ pub mod near_neighbor;
 pub mod peel;
 mod polygons;
 pub mod rays;
+pub mod shells;
 pub mod single_pass;
 pub mod slices;
 pub mod start;

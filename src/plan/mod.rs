@@ -12,7 +12,7 @@ use crate::feature::{self, DISTANCES, FEATURES};
 use crate::method;
 use crate::part::form::Form;
 use crate::part::resource::{Facts, Resource};
-use crate::part::rows::{Context, Feature, Method, Why};
+use crate::part::rows::{Context, Feature, Method, Traversal, Why};
 use crate::part::steps::Steps;
 use crate::part::{Step, Work};
 use crate::resource;
@@ -143,8 +143,9 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
 /// When it does not, with what to do.
 pub fn check(scene: &Scene) -> Result<()> {
     crate::truth::preintegrated::check(scene)?;
-    (method::of(scene.settings.method.name)?.takes)(scene)?;
-    feature::layers::check(scene)?;
+    let method = method::of(scene.settings.method.name)?;
+    (method.takes)(scene)?;
+    feature::layers::check(scene, method)?;
     feature::surface::check(scene)?;
     feature::lights::check(scene)?;
     feature::light_paths::check(scene)?;
@@ -180,13 +181,20 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
         }
         None => view,
     };
+    if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {
+        shells.build(&scene.field)?;
+    }
     let passes = passes(scene, &view, method);
     check_slices(scene, &view)?;
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
         0 if scene.backdrop.is_none() && !scene.polygons.show() || view.region.pixels() == 0 => {
-            (Vec::new(), vec![LeftOut::new("every pass", "no ray of this view meets the volume")])
+            let why = match method.takes_samples() || view.region.pixels() == 0 {
+                true => "no ray of this view meets the volume",
+                false => "no shell has polygons",
+            };
+            (Vec::new(), vec![LeftOut::new("every pass", why)])
         }
         _ => (frame(&context), left_out(&context)),
     };
@@ -202,7 +210,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     // The frame's list has room for them.
     let mut steps = frame;
     steps.splice(0..0, before);
-    let texture = (method.on_device && passes > 0).then(|| {
+    let texture = (method.on_device && passes > 0 && method.takes_samples()).then(|| {
         let volume = TextureChoice::of(scene);
         TextureChoice { error: volume.error.max(scene.error_beside()), ..volume }
     });
@@ -216,6 +224,10 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
 fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
     if method.loops() {
         return u32::from(view.longest_samples > 0);
+    }
+    if method.traversal == Traversal::Shells {
+        let shown = scene.shells.as_ref().map_or(0, |shells| shells.list.len() as u32);
+        return if view.region.pixels() == 0 { 0 } else { shown };
     }
     let sampling = &scene.settings.sampling;
     if let Some(slices) = &view.slices {
@@ -263,7 +275,10 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
         if scene.settings.sampling.passes > 0 && context.method.back_to_front() {
             left_out.push(LeftOut::new("forced main passes", "one pass draws all slices"));
         }
-    } else if scene.settings.method.planner && scene.settings.sampling.passes == 0 {
+    } else if context.method.traversal == Traversal::Passes
+        && scene.settings.method.planner
+        && scene.settings.sampling.passes == 0
+    {
         let diagonal = whole_diagonal(scene).div_ceil(scene.settings.sampling.samples_per_pass);
         if diagonal > passes {
             let last = diagonal - 1;

@@ -37,10 +37,12 @@ fn line(step: &Step) -> String {
     let (queue, detail) = match &step.work {
         Work::Draw(draw) => {
             let mut detail = String::new();
-            if draw.test.bounds {
+            if draw.depths[0] != draw.depths[1] {
+                detail = format!("  [depths {:.6}..{:.6}]", draw.depths[0], draw.depths[1]);
+            } else if draw.test.bounds {
                 detail = format!("  [bounds {}..{:.6}]", least(draw), draw.bound);
             } else if draw.test.compare == Some(vk::CompareOp::EQUAL) {
-                detail = format!("  [stored = {:.6}]", draw.depth);
+                detail = format!("  [stored = {:.6}]", draw.depths[0]);
             } else if draw.test.compare.is_some() && !draw.test.write {
                 detail = format!("  [stored <= {:.6}]", draw.bound);
             } else if draw.least > 0.0 {

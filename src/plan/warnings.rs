@@ -19,6 +19,8 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     warnings.extend(scene.environment.iter().flat_map(|environment| environment.warnings.clone()));
     warnings.extend(scene.effect.iter().flat_map(|effect| effect.warnings.clone()));
     warnings.extend(scene.polygons.clips().iter().filter_map(open_clip));
+    let shells = scene.shells.iter().filter(|_| !plan.method.takes_samples());
+    warnings.extend(shells.flat_map(|shells| shells.warnings(&scene.field)));
     warnings.extend(empty(scene, plan));
     warnings.extend(plan.texture.and_then(|_| imprecise(scene, &TextureChoice::of(scene))));
     warnings.extend(rounded_beside_gradients(scene));
@@ -52,6 +54,9 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     let field = &scene.field;
     if scene.polygons.show() || scene.backdrop.is_some() {
         return None;
+    }
+    if plan.passes == 0 && !plan.method.takes_samples() && plan.view.region.pixels() > 0 {
+        return Some("the picture is empty: no value of the volume reaches the level of any shell; give lower levels (--shell-levels)".to_owned());
     }
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
@@ -221,7 +226,7 @@ fn out_of_format(scene: &Scene, plan: &Plan) -> Option<String> {
         format!(
             "the projection {} may come to values from {low} to {high}, and --accumulate {name} holds {least} to {greatest}; \
              use rgba32f, or another --range",
-            scene.settings.projection.kind
+            projection::of(&scene.settings).name
         )
     })
 }

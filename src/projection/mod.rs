@@ -40,13 +40,19 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::scene::Settings;
-use crate::scene::settings::ProjectionName;
+use crate::scene::settings::{ProjectionName, ShellMode};
 
 /// Every projection, in the order of tables and of the help.
 pub const PROJECTIONS: [&Projection; 5] = [&COMPOSITE, &MIP, &MINIP, &AVERAGE, &XRAY];
 
-/// The projection of a scene with these settings. Names are read here, so that every one has its row.
+/// The projection of a scene with these settings. Names are read here, so that every one has its row. What is made of shells says what
+/// is made of the values between them as well.
 pub fn of(settings: &Settings) -> &'static Projection {
+    match settings.shells.mode {
+        Some(ShellMode::Max) => return &MIP,
+        Some(ShellMode::Sum) => return &XRAY,
+        None => {}
+    }
     let named = |row: &&Projection| row.name == settings.projection.kind.name();
     PROJECTIONS.into_iter().find(named).unwrap_or(&COMPOSITE)
 }

@@ -12,7 +12,9 @@ use crate::math::polyhedron::HalfSpace;
 use crate::scene::mesh::{Keep, Mesh, shape};
 use crate::scene::mesh_field::{self, DEFAULT_BAND};
 use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
-use crate::scene::{Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Surface, TextureUnit, Volume, builtin};
+use crate::scene::{
+    Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Shells, Surface, TextureUnit, Volume, builtin,
+};
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
 ///
@@ -127,6 +129,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
     let clip_volume = clip_volume(settings, &field)?.map(Arc::new);
     let surface = Surface::of(settings, &field, &transfer);
+    let shells = Shells::new(&settings.shells, &field, None)?.map(Arc::new);
     let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
     let (mut settings, field) = (settings.clone(), Arc::new(field));
     settings.effects.hash = effect.as_ref().map(|effect| effect.hash.clone());
@@ -140,6 +143,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
         planes,
         clip_volume,
         surface,
+        shells,
         lights,
         environment,
         backdrop,

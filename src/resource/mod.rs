@@ -11,6 +11,7 @@ mod gradients;
 mod layers;
 mod look;
 mod refraction;
+mod shells;
 mod structure;
 mod surface;
 pub mod texels;
@@ -27,6 +28,7 @@ pub use layers::{
 };
 pub use look::{AXIS, FEW_GREY_TRANSFER, FEW_TRANSFER, GREY_TRANSFER, HOLES, PREINTEGRATED, STACKS, TRANSFER, VOLUME};
 pub use refraction::{BACKDROP, REFRACTIVE_INDEX};
+pub use shells::{SHELL_CORNERS, SHELL_CUE, SHELL_DEPTH, SHELL_LEVELS, SHELL_PLACEMENT};
 pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
     SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
@@ -36,7 +38,7 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 59] = [
+pub const RESOURCES: [Resource; 64] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -60,6 +62,11 @@ pub const RESOURCES: [Resource; 59] = [
     LAYER_COLOR,
     PEEL_DEPTH,
     CLIP_WINDING,
+    SHELL_CORNERS,
+    SHELL_PLACEMENT,
+    SHELL_LEVELS,
+    SHELL_CUE,
+    SHELL_DEPTH,
     SURFACE_LEVELS,
     LIGHTS,
     WHITE_LIGHTS,

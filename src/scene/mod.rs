@@ -26,6 +26,7 @@ pub mod refraction;
 pub mod region;
 pub mod scenes;
 pub mod settings;
+pub mod shells;
 mod sky;
 pub mod slice_polygons;
 pub mod slices;
@@ -50,6 +51,7 @@ pub use planes::ClipPlanes;
 pub use refraction::RefractiveIndex;
 pub use region::Region;
 pub use settings::Settings;
+pub use shells::Shells;
 pub use surface::Surface;
 pub use texture::TextureUnit;
 pub use transfer::TransferFunction;
@@ -70,6 +72,8 @@ pub struct Scene {
     pub clip_volume: Option<Arc<ClipVolume>>,
     /// Iso-surfaces that are drawn in place of the volume's colours.
     pub surface: Option<Surface>,
+    /// Nested iso-surfaces as polygons.
+    pub shells: Option<Arc<Shells>>,
     /// Lights that are given, in the volume's axes.
     pub lights: Vec<Light>,
     /// What the iso-surfaces reflect.

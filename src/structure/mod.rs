@@ -1,4 +1,4 @@
-//! Structures that are built of a volume: those that tell where it holds nothing to see, gradients, and shells.
+//! Structures that are built of a volume: those that tell where it holds nothing to see, and gradients.
 
 pub mod blocks;
 pub mod bundle;
@@ -8,13 +8,12 @@ pub mod gradients;
 pub mod grid;
 pub mod octants;
 pub mod ranges;
-pub mod shell;
 pub mod square;
 pub mod wide;
 
 use glam::DVec3;
 
-use crate::projection::Shown;
+use crate::projection::{self, Shown};
 use crate::scene::settings::{Distance, Filter, ProjectionName};
 use crate::scene::{Camera, Field, Scene};
 use bundle::Bundles;
@@ -78,7 +77,7 @@ impl Lookup {
             Distance::Optimal => view(None),
             Distance::Cone => view(Some(method.cone.to_radians())),
         };
-        Self { distance, cell: method.cell, nearest, projection: scene.settings.projection.kind, view }
+        Self { distance, cell: method.cell, nearest, projection: projection::of(&scene.settings).name(), view }
     }
 }
 

@@ -44,7 +44,10 @@ pub fn check(scene: &Scene) -> Result<()> {
     match () {
         () if !sampling.preintegrates() => Ok(()),
         () if projection::of(&scene.settings).shows_values() => refuse(
-            format!("makes colours of values, and the projection {} shows values", scene.settings.projection.kind),
+            format!(
+                "makes colours of values, and the projection {} shows values",
+                projection::of(&scene.settings).name
+            ),
             "use --projection composite, or --classification post",
         ),
         () if sampling.offset != Offset::Left => {

@@ -22,6 +22,7 @@ mod refraction;
 pub mod samples;
 pub mod section;
 pub mod segment;
+pub mod shells;
 pub mod single_pass;
 pub mod slices;
 pub mod start;
@@ -72,6 +73,8 @@ pub struct Twin<'a> {
     pub surface_values: &'a [[f64; 2]],
     /// Lights on surfaces or on samples, in the volume's axes.
     pub lights: &'a [Light],
+    /// Steps of the raster that a rasteriser moves corners to, in pixels.
+    pub raster: f64,
 }
 
 /// A surface that a ray meets.
@@ -124,6 +127,9 @@ pub struct Pixel {
     pub surface: Option<MetSurface>,
     /// The depth buffer.
     pub stored: f64,
+    /// The depth buffer of shells, and how far a rasteriser may see it elsewhere.
+    pub shell_depth: f64,
+    pub shell_spread: f64,
     /// Fronts less backs of each clip mesh that the ray meets.
     pub entered: [i32; MOST_CLIPS],
     /// Where clip geometry lets the volume begin: a surface behind all that is hidden, or the begin of the ray.

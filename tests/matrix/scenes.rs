@@ -17,7 +17,7 @@ use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Gradients, Last,
     LightSettings, Mapping, MeshSettings, Offset, PartialSegments, Refine, Refraction, Settings, ShadingSettings,
-    Shows, SurfaceLevel, Translucency, VolumeTexture,
+    ShellMode, ShellSum, Shows, SurfaceLevel, Translucency, VolumeTexture,
 };
 use depthleap::scene::{Backdrop, Camera, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
@@ -28,7 +28,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 78] = [
+const KINDS: [(&str, Change); 81] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -90,6 +90,18 @@ const KINDS: [(&str, Change); 78] = [
     }),
     ("a slice for each texture of a stack", |s| s.method.between = false),
     ("an orthographic view of an iso-surface", |s| (s.surface.iso, s.camera.height) = (Some(90.0), Some(1.1))),
+    ("shells, the greatest by depth, with a box among them", |s| {
+        (s.shells.mode, s.shells.a, s.shells.b, s.shells.count) = (Some(ShellMode::Max), 0.7, 0.4, 5);
+        s.meshes = vec![across(1.0)];
+    }),
+    ("shells, the sum of ways, with a box among them", |s| {
+        (s.shells.mode, s.shells.beta0, s.shells.a, s.shells.count) = (Some(ShellMode::Sum), 0.2, 0.5, 6);
+        s.meshes = vec![across(1.0)];
+    }),
+    ("shells, the sum of crossings, with a box among them, in an orthographic view", |s| {
+        (s.shells.mode, s.shells.sum, s.shells.a) = (Some(ShellMode::Sum), ShellSum::Crossings, 0.5);
+        (s.meshes, s.camera.height) = (vec![across(1.0)], Some(1.2));
+    }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),
     ("an opaque box", |s| s.meshes = vec![cuboid(0.45, 1.0)]),
@@ -459,7 +471,7 @@ pub fn by(scene: &Scene, method: &Method) -> Scene {
 
 /// The methods that draw the scene.
 pub fn methods(scene: &Scene) -> impl Iterator<Item = &'static Method> {
-    method::METHODS.into_iter().filter(|method| (method.takes)(scene).is_ok())
+    method::METHODS.into_iter().filter(|method| depthleap::plan::check(&by(scene, method)).is_ok())
 }
 
 /// Every form of a method; none stands for culling nothing.

@@ -6,7 +6,7 @@ use depthleap::plan::{Plan, plan};
 use depthleap::projection::{MIP, Projection};
 use depthleap::read;
 use depthleap::scene::mesh::Keep;
-use depthleap::scene::settings::{ClipSettings, Cull, Mark, MeshSettings, MethodName, PartialSegments};
+use depthleap::scene::settings::{ClipSettings, Cull, Mark, MeshSettings, MethodName, PartialSegments, ShellMode};
 use depthleap::scene::{Scene, Settings};
 
 /// 16 voxels a side, three main passes, few pixels.
@@ -41,6 +41,15 @@ fn layered(method: MethodName, form: Option<Form>) -> Plan {
     let mesh = |opacity| MeshSettings { builtin: Some("box".to_owned()), opacity, ..MeshSettings::default() };
     (settings.meshes, settings.layers.most) = (vec![mesh(0.5), mesh(1.0)], 2);
     plan(&scene(&settings), form).unwrap()
+}
+
+/// Shells, with an opaque mesh where `meshed`.
+fn shells(mode: ShellMode, meshed: bool) -> Plan {
+    let mut settings = settings(method::SHELLS.name());
+    (settings.shells.mode, settings.shells.count, settings.shells.a) = (Some(mode), 3, 0.5);
+    let mesh = || MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() };
+    settings.meshes = meshed.then(mesh).into_iter().collect();
+    plan(&scene(&settings), None).unwrap()
 }
 
 /// With a clip plane that the eye is cut off by, and a mesh.
@@ -167,6 +176,13 @@ pub fn cases() -> Vec<Case> {
         ("single-pass-omni_surface", method::SINGLE_PASS_OMNI.name(), None),
     ] {
         cases.push(Case { name, plan: on_surface(method, form) });
+    }
+    for (name, mode, meshed) in [
+        ("shells_max", ShellMode::Max, false),
+        ("shells_max_surface", ShellMode::Max, true),
+        ("shells_sum_surface", ShellMode::Sum, true),
+    ] {
+        cases.push(Case { name, plan: shells(mode, meshed) });
     }
     cases.push(Case { name: "single-pass-omni_clip_volume", plan: clipped_by_volume() });
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });

@@ -27,6 +27,7 @@ mod refraction;
 mod sampling;
 mod section;
 mod shading;
+mod shells;
 mod surface;
 mod transfer;
 mod volume;
@@ -55,6 +56,7 @@ pub use placed::Placed;
 pub use refraction::Refraction;
 pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
 pub use shading::{GradientOperator, GradientTexture, Gradients};
+pub use shells::{MOST_LEVELS, ShellMode, ShellOrder, ShellSum};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 
@@ -169,6 +171,7 @@ sections! {
     effects: EffectsSettings, EffectsOptions;
     image: ImageSettings, ImageOptions;
     projection: ProjectionSettings, ProjectionOptions;
+    shells: ShellsSettings, ShellsOptions;
     sampling: SamplingSettings, SamplingOptions;
     method: MethodSettings, MethodOptions;
 }

@@ -119,6 +119,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         levels: Levels::default(),
         surface_values: &[],
         lights: &[],
+        raster: 0.0,
     }
 }
 

@@ -18,6 +18,7 @@ mod projections;
 mod recorded;
 mod refraction;
 pub mod scenes;
+mod shells;
 mod single_pass;
 mod slices;
 mod textures;
@@ -40,6 +41,7 @@ pub fn tests() -> Vec<Test> {
         projections::tests(),
         single_pass::tests(),
         slices::tests(),
+        shells::tests(),
         effects::tests(),
         refraction::tests(),
     ]

@@ -139,7 +139,9 @@ pub fn shapes() -> Vec<&'static Method> {
         (method.ends_rays, ahead, method.fused, method.traversal)
     };
     let mut shapes: Vec<&Method> = Vec::new();
-    for method in METHODS.into_iter().filter(|method| method.on_device && method.stack().is_none()) {
+    for method in
+        METHODS.into_iter().filter(|method| method.on_device && method.takes_samples() && method.stack().is_none())
+    {
         let leaps = method.loops() && method.looks_ahead();
         if !leaps && shapes.iter().all(|one| shape(one) != shape(method)) {
             shapes.push(method);
@@ -165,7 +167,7 @@ pub fn loops_in_turn(method: &Method, turn: usize) -> bool {
 pub fn in_turn(method: &Method, turn: usize) -> bool {
     let ahead = if (turn / STACKS.len()).is_multiple_of(2) { Ahead::Blocks } else { Ahead::Distances(Distance::Omni) };
     match method.traversal {
-        Traversal::Passes => true,
+        Traversal::Passes | Traversal::Shells => true,
         Traversal::FragmentLoop | Traversal::ComputeLoop => loops_in_turn(method, turn),
         Traversal::Slices(stack) => {
             stack == STACKS[turn % STACKS.len()] && [Ahead::Nothing, ahead].contains(&method.ahead)

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cases::{CASES, CORNERS, edge};
-use super::lattice::{BITS, Lattice, too_little_memory};
+use super::lattice::{BITS, Faces, Lattice, too_little_memory};
 use crate::error::{Error, Result};
 use crate::scene::Field;
 
@@ -32,8 +32,8 @@ pub(super) struct Word {
 impl<'a> Crossings<'a> {
     /// # Errors
     /// When there are more vertices or triangles than 32 bits count, or there is not enough memory.
-    pub fn new(field: &'a Field, level: f32) -> Result<Self> {
-        let lattice = Lattice::new(field);
+    pub fn new(field: &'a Field, level: f32, faces: Faces) -> Result<Self> {
+        let lattice = Lattice::new(field, faces);
         let (vertices, before, count) = (Vec::new(), Vec::new(), [0; 2]);
         let above = lattice.above(field, level)?;
         let mut crossings = Self { lattice, field, above, vertices, before, count };
@@ -210,7 +210,7 @@ impl<'a> Crossings<'a> {
     fn is_hole(&self, node: [usize; 3]) -> bool {
         let Some(holes) = &self.field.holes else { return false };
         let cells = self.field.cells();
-        let [x, y, z] = std::array::from_fn(|axis| node[axis].saturating_sub(1).min(cells[axis] - 1));
+        let [x, y, z] = std::array::from_fn(|axis| self.lattice.voxel(axis, node[axis]).min(cells[axis] - 1));
         holes[(z * cells[1] + y) * cells[0] + x]
     }
 

@@ -5,10 +5,16 @@
 
 mod cases;
 mod crossings;
+mod depth;
 mod lattice;
+mod levels;
 mod polygons;
+mod rays;
 
 pub use cases::{CASES, CORNERS, EDGES, MOST_TRIANGLES, edge};
 pub use crossings::Crossings;
-pub use lattice::Lattice;
+pub use depth::ShellDepth;
+pub use lattice::{Faces, Lattice};
+pub use levels::{Shell, ShellMesh, Shells, in_the_middle};
 pub use polygons::polygons;
+pub use rays::{ShellCrossing, ShellCrossings, crossing_of};

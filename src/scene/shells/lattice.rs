@@ -1,5 +1,6 @@
 //! Where the corners of cells lie: at the voxels' centres and, one more on each side, on the faces of the volume, where the value of the
-//! outermost voxel stays what it is.
+//! outermost voxel stays what it is. Shells that are closed have another one on each side, in the same place, which is outside of all of
+//! them.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,21 +11,43 @@ use crate::scene::Field;
 /// Nodes in a word of bits.
 pub const BITS: usize = 64;
 
+/// How shells end at the faces of the volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Faces {
+    /// They have a rim there.
+    Open,
+    /// They go on along the faces, as if all values beyond were below every level.
+    Closed,
+}
+
 /// The nodes of a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lattice {
     /// Voxels along x, y and z.
     pub dims: [usize; 3],
+    /// Whether shells are closed at the faces of the volume.
+    closed: bool,
 }
 
 impl Lattice {
-    pub fn new(field: &Field) -> Self {
-        Self { dims: field.dims() }
+    pub fn new(field: &Field, faces: Faces) -> Self {
+        Self { dims: field.dims(), closed: faces == Faces::Closed }
+    }
+
+    /// Nodes on each side that are no voxels.
+    fn margin(&self) -> usize {
+        if self.closed { 2 } else { 1 }
+    }
+
+    /// Whether a node is outside of every shell.
+    pub fn is_outside(&self, node: [usize; 3]) -> bool {
+        let nodes = self.nodes();
+        self.closed && (0..3).any(|axis| node[axis] == 0 || node[axis] == nodes[axis] - 1)
     }
 
     /// Nodes along x, y and z.
     pub fn nodes(&self) -> [usize; 3] {
-        self.dims.map(|n| n + 2)
+        self.dims.map(|n| n + 2 * self.margin())
     }
 
     /// Rows of nodes along x.
@@ -39,12 +62,12 @@ impl Lattice {
 
     /// The voxel whose value a node has along an axis.
     pub fn voxel(&self, axis: usize, node: usize) -> usize {
-        node.saturating_sub(1).min(self.dims[axis] - 1)
+        node.saturating_sub(self.margin()).min(self.dims[axis] - 1)
     }
 
     /// Where a node lies along an axis, in voxels from the volume's face on.
     pub fn place(&self, axis: usize, node: usize) -> f64 {
-        (node as f64 - 0.5).clamp(0.0, self.dims[axis] as f64)
+        (node as f64 + 0.5 - self.margin() as f64).clamp(0.0, self.dims[axis] as f64)
     }
 
     /// Where a node lies, in the volume's own axes, from its middle on; the longest side of the volume is 1.
@@ -77,11 +100,15 @@ impl Lattice {
         bits.try_reserve_exact(words * self.rows()).map_err(|_| too_little_memory(field))?;
         bits.resize(words * self.rows(), 0);
         bits.par_chunks_mut(words).enumerate().for_each(|(row, bits)| {
-            let values = self.row_of_values(field, row);
+            let [_, rows, _] = self.nodes();
+            let (first, values) = (self.margin(), self.row_of_values(field, row));
+            if self.is_outside([first, row % rows, row / rows]) {
+                return;
+            }
             let mut set = |node: usize, value: f32| bits[node / BITS] |= u64::from(value >= level) << (node % BITS);
-            set(0, values[0]);
-            values.iter().enumerate().for_each(|(voxel, value)| set(voxel + 1, *value));
-            set(values.len() + 1, values[values.len() - 1]);
+            set(first - 1, values[0]);
+            values.iter().enumerate().for_each(|(voxel, value)| set(first + voxel, *value));
+            set(first + values.len(), values[values.len() - 1]);
         });
         Ok(bits)
     }

@@ -3,23 +3,24 @@
 use rayon::prelude::*;
 
 use super::crossings::Crossings;
-use super::lattice::too_little_memory;
+use super::lattice::{Faces, too_little_memory};
 use crate::error::Result;
 use crate::scene::Field;
 use crate::scene::mesh::Mesh;
 
 /// The surface of a level, in x, as a mesh in the volume's own axes, about its middle, whose longest side is 1. Triangles go round
-/// against the clock as seen from below the level. There are none where all values lie on one side of the level.
+/// against the clock as seen from below the level. There are none where all values are below the level nor, where shells are open at the
+/// faces, where none is.
 ///
 /// # Errors
 /// When there are more polygons than 32 bits count, or there is not enough memory for them.
-pub fn polygons(field: &Field, level: f32) -> Result<Mesh> {
+pub fn polygons(field: &Field, level: f32, faces: Faces) -> Result<Mesh> {
     let name = format!("shell of {} at x = {level}", field.volume.name);
     let mut mesh = Mesh { name, corners: Vec::new(), triangles: Vec::new(), warnings: Vec::new() };
-    if !crosses(field, level) {
+    if !crosses(field, level, faces) {
         return Ok(mesh);
     }
-    let crossings = Crossings::new(field, level)?;
+    let crossings = Crossings::new(field, level, faces)?;
     make_room(&mut mesh, field, crossings.count)?;
     let slabs = crossings.slabs();
     let (mut vertices, mut triangles) = (&mut mesh.corners[..], &mut mesh.triangles[..]);
@@ -49,10 +50,10 @@ pub fn polygons(field: &Field, level: f32) -> Result<Mesh> {
     Ok(mesh)
 }
 
-/// Whether values of the field lie on both sides of a level: below it, and not below it.
-fn crosses(field: &Field, level: f32) -> bool {
+/// Whether a shell may have polygons.
+fn crosses(field: &Field, level: f32, faces: Faces) -> bool {
     let [low, high] = field.extremes();
-    low < level && level <= high
+    (low < level || faces == Faces::Closed) && level <= high
 }
 
 /// Takes the memory for so many vertices and triangles.
@@ -70,6 +71,10 @@ fn place(crossings: &Crossings, field: &Field, level: f32, node: [usize; 3], axi
     let mut further = node;
     further[axis] += 1;
     let [from, to] = [node, further].map(|node| (f64::from(lattice.value(field, node)), lattice.position(field, node)));
+    if from.1 == to.1 {
+        // Between a node on a face and the one outside.
+        return from.1.as_vec3().to_array();
+    }
     // The values are on both sides of the level, so that they differ.
     let part = (f64::from(level) - from.0) / (to.0 - from.0);
     from.1.lerp(to.1, part).as_vec3().to_array()

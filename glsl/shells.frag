@@ -1,0 +1,110 @@
+// How bright a shell is [Heidrich95]. Twin: src/twin/shells.rs.
+//
+// Without a define: the greatest is to be found. Depths are brightness, by the viewport's range, and the depth test keeps the greatest
+// [§2.2, equation 5]; shells are drawn in full brightness, which the depth cue dims to what the depth is.
+// CROSSINGS: the sum of emissions, each dimmed by the depth cue [§2.1, §3].
+// LENGTHS: what the emission within the shell exceeds that around it by, times the way there, which is that to where a ray leaves less
+// that to where it enters. Ways are counted to the middle of the view or, with OPAQUE, to the surface that ends the ray. The paper has no
+// such sum; its own goes to no integral however many shells there are.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@takes [CROSSINGS | LENGTHS], [OPAQUE], [ORTHOGRAPHIC]
+
+#if defined(CROSSINGS) || defined(LENGTHS)
+#include "shared/frame.glsl"
+
+struct ShellLevel {
+    // phi.
+    float emission;
+    // By how much it exceeds that of the next dimmer shell, half-way between levels.
+    float rise;
+};
+
+layout(set = 0, binding = 36, std430) readonly buffer ShellLevels {
+    ShellLevel list[];
+} shell_levels;
+#endif
+
+layout(set = 0, binding = 35, std140) uniform ShellCue {
+    // The depth cue at the depth 0, and what it rises by to the depth 1.
+    vec2 beta;
+    // The same as p + q / depth from the eye in perspective, p - q depth in orthographic views.
+    vec2 line;
+    // From depths of the depth buffer to 1 / depth from the eye in perspective, to depth in orthographic views: at 0, and the rise to 1.
+    vec2 depth;
+    // What a depth of 1 is in brightness.
+    float brightness;
+    // Reference lengths in a unit of volume space.
+    float lengths;
+    // A depth in the middle of the view.
+    float middle;
+} shell_cue;
+
+#ifdef OPAQUE
+layout(set = 0, binding = 15) uniform sampler2D layer[1];
+#endif
+
+// Fragments that are not the greatest, or that lie behind a surface, are not shaded.
+layout(early_fragment_tests) in;
+
+layout(location = 0) out vec4 accumulated;
+
+#ifdef LENGTHS
+// The natural logarithm of a number above 0: those of drivers have too few digits.
+float logarithm(float number) {
+    int bits = floatBitsToInt(number);
+    int exponent = (bits >> 23) - 127;
+    float mantissa = intBitsToFloat((bits & 0x7FFFFF) | 0x3F800000);
+    if (mantissa > 1.41421356) {
+        mantissa *= 0.5;
+        exponent += 1;
+    }
+    float ratio = (mantissa - 1.0) / (mantissa + 1.0);
+    float square = ratio * ratio;
+    float series = 1.0 + square * (1.0 / 3.0 + square * (1.0 / 5.0 + square * (1.0 / 7.0 + square / 9.0)));
+    return float(exponent) * 0.69314718 + 2.0 * ratio * series;
+}
+
+// The integral of the depth cue between two depths from the eye.
+float cue_between(float from, float to) {
+#ifdef ORTHOGRAPHIC
+    return (to - from) * (shell_cue.line.x - 0.5 * shell_cue.line.y * (to + from));
+#else
+    return shell_cue.line.x * (to - from) + shell_cue.line.y * logarithm(to / from);
+#endif
+}
+
+float way_to_end() {
+    float stored = shell_cue.depth.x + shell_cue.depth.y * gl_FragCoord.z;
+#ifdef ORTHOGRAPHIC
+    float from = stored;
+    vec3 direction = frame.base[0].xyz;
+#else
+    float from = 1.0 / stored;
+    vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
+    vec3 direction = frame.base[0].xyz + pixel.x * frame.right[0].xyz + pixel.y * frame.down[0].xyz;
+#endif
+    float end = shell_cue.middle;
+#ifdef OPAQUE
+    float nearness = texelFetch(layer[0], ivec2(gl_FragCoord.xy), 0).x;
+    end = nearness > 0.0 ? frame.near / nearness : end;
+#endif
+    return cue_between(from, end) * length(direction) * shell_cue.lengths;
+}
+#endif
+
+void main() {
+#if defined(LENGTHS)
+    float way = way_to_end() * shell_levels.list[this_step.pass].rise;
+    float brightness = gl_FrontFacing ? way : -way;
+#elif defined(CROSSINGS)
+    float brightness = shell_levels.list[this_step.pass].emission * (shell_cue.beta.x + shell_cue.beta.y * gl_FragCoord.z);
+#else
+    float brightness = gl_FragCoord.z * shell_cue.brightness;
+#endif
+#if defined(LENGTHS) || defined(CROSSINGS)
+    accumulated = vec4(vec3(brightness), 0.0);
+#else
+    accumulated = vec4(vec3(brightness), 1.0);
+#endif
+}

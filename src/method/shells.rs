@@ -1,0 +1,119 @@
+//! `shells`: nested iso-surfaces of an emissive volume as flat polygons [Heidrich95].
+
+use super::rows::{RAY_CASTER, peel, takes_in_passes};
+use crate::error::{Error, Result};
+use crate::feature::START;
+use crate::part::rows::{Context, Method, Traversal};
+use crate::part::steps::Steps;
+use crate::pass::{layer, shells, start};
+use crate::projection;
+use crate::scene::Scene;
+use crate::scene::settings::{Accumulate, Filter, ProjectionName, ShellMode, ShellOrder, ShellSum};
+
+pub const SHELLS: Method = Method {
+    name: "shells",
+    about: "Nested iso-surfaces of an emissive volume as polygons, their greatest emission or the sum",
+    source: "Heidrich95",
+    takes,
+    papers: None,
+    forms: Vec::new,
+    ends_rays: false,
+    traversal: Traversal::Shells,
+    steps: draw,
+    ..RAY_CASTER
+};
+
+/// Takes emissive volumes with opaque polygons.
+fn takes(scene: &Scene) -> Result<()> {
+    takes_in_passes(scene)?;
+    let settings = &scene.settings.shells;
+    let method = || format!("--method {}", scene.settings.method.name);
+    let Some(mode) = settings.mode else {
+        return Err(Error::usage(
+            method(),
+            "does not know what to make of shells",
+            "use --shells max, or --shells sum",
+        ));
+    };
+    let of_mode = projection::of(&scene.settings).name();
+    let asked = scene.settings.projection.kind;
+    let refused = |problem: &str, remedy: &str| Err(Error::usage(method(), problem, remedy));
+    let (polygons, opaque) = (&scene.polygons, !scene.polygons.opaque().is_empty());
+    let one_sided = || polygons.materials.iter().any(|material| material.is_opaque() && !material.two_sided);
+    match () {
+        () if asked != ProjectionName::default() && asked != of_mode => Err(Error::usage(
+            format!("projection.kind (--projection {asked})"),
+            format!("is another one than that of shells, {of_mode}"),
+            "leave one of --projection and --shells out",
+        )),
+        () if scene.surface.is_some() => {
+            refused("draws no iso-surfaces in light", "use a ray caster, or leave the surface out (--iso)")
+        }
+        () if !scene.clip_planes().is_empty() || !polygons.clips().is_empty() || scene.clip_volume.is_some() => {
+            refused("draws whole shells, which nothing cuts", "use a ray caster, or leave out [[clip]] (--clip-plane)")
+        }
+        () if !polygons.transparent().is_empty() => refused(
+            "blends shells in no order, among which transparent polygons have no place [Heidrich95 §4]",
+            "make the meshes opaque, or use a ray caster",
+        ),
+        () if opaque && one_sided() => refused(
+            "draws polygons into the depth buffer from both sides, and the backs of a mesh do not show (two_sided = false)",
+            "let them show, or use a ray caster",
+        ),
+        () if scene.settings.sampling.filter == Filter::Nearest => refused(
+            "draws surfaces between voxels, and --filter nearest has nothing between them",
+            "use --filter exact or hardware, or a ray caster",
+        ),
+        () if mode == ShellMode::Max && opaque && settings.a == 0.0 => Err(Error::usage(
+            "shells.a (--shell-a) 0",
+            "gives a shell and the surfaces in it one depth, so that neither hides the other [Heidrich95 equation 5]",
+            "give a above 0, such as 0.001, or leave the meshes out",
+        )),
+        () if mode == ShellMode::Max && opaque && settings.order == ShellOrder::Brightest => Err(Error::usage(
+            "shells.order (--shell-order) brightest",
+            "lets surfaces in the depth of a bright shell hide the dim ones in front of them [Heidrich95 §4]",
+            "use auto or dimmest, or leave the meshes out",
+        )),
+        () if mode == ShellMode::Sum && settings.sum == ShellSum::Lengths => takes_lengths(scene),
+        () => Ok(()),
+    }
+}
+
+/// Takes scenes in which ways through shells may be counted from where they are entered and left.
+fn takes_lengths(scene: &Scene) -> Result<()> {
+    let refused = |problem: &str, remedy: &str| Err(Error::usage("shells.sum (--shell-sum) lengths", problem, remedy));
+    match () {
+        () if scene.settings.image.accumulate != Accumulate::Rgba32f => refused(
+            "takes the ways to where a ray enters from those to where it leaves, for which there are no digits but in rgba32f",
+            "use --accumulate rgba32f, or --shell-sum crossings",
+        ),
+        () if scene.field.holes.is_some() => refused(
+            "asks for shells that are closed, and there are holes in this volume, at which they are open",
+            "use --nan replace, or --shell-sum crossings",
+        ),
+        () => Ok(()),
+    }
+}
+
+/// Surfaces, then the shells in their order; those that hide what is behind them once more before each shell, in its depth.
+fn draw(context: &Context, steps: &mut Steps) {
+    steps.extend(context.has(&START).then(|| start::start(context)));
+    peel(context, steps);
+    steps.enter(0, None);
+    let settings = &context.scene.settings.shells;
+    let greatest = settings.mode == Some(ShellMode::Max);
+    if context.opaque && !greatest && context.passes > 0 {
+        steps.push(shells::surfaces(context, None));
+    }
+    let brightest_first = match settings.order {
+        ShellOrder::Auto => greatest && !context.opaque,
+        ShellOrder::Brightest => true,
+        ShellOrder::Dimmest => false,
+    };
+    let numbers = |i: u32| if brightest_first { context.passes - 1 - i } else { i };
+    for number in (0..context.passes).map(numbers) {
+        steps.extend((context.opaque && greatest).then(|| shells::surfaces(context, Some(number))));
+        steps.push(shells::shell(context, number));
+    }
+    steps.extend(context.opaque.then(|| layer::opaque(context)));
+}

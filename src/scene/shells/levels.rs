@@ -1,0 +1,181 @@
+//! The shells of a scene: their levels, and what each of them emits [Heidrich95 §2].
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec3;
+
+use super::lattice::Faces;
+use super::polygons::polygons;
+use crate::error::{Error, Result};
+use crate::math::bvh::{Bounds, Hierarchy};
+use crate::scene::Field;
+use crate::scene::mesh::Mesh;
+use crate::scene::settings::ShellsSettings;
+
+/// Shells by rising emission, those without polygons left out.
+#[derive(Clone, Debug, Default)]
+pub struct Shells {
+    pub list: Vec<Shell>,
+    /// Levels without polygons, in the volume's own unit.
+    pub empty: Vec<f64>,
+    /// How many levels were given more than once.
+    pub repeated: usize,
+}
+
+/// A shell.
+#[derive(Clone, Debug)]
+pub struct Shell {
+    /// In the volume's own unit.
+    pub level: f64,
+    /// phi: the level as x.
+    pub emission: f64,
+    /// By how much the emission within the shell exceeds that of what is around it, where ways are summed up: emissions change half-way
+    /// between two levels.
+    pub rise: f64,
+    pub mesh: Arc<ShellMesh>,
+}
+
+/// The polygons of a level, closed at the faces of the volume, made when they are first asked for.
+#[derive(Debug, Default)]
+pub struct ShellMesh {
+    mesh: OnceLock<Mesh>,
+    /// Over its triangles, for who asks where rays meet them.
+    hierarchy: OnceLock<Hierarchy>,
+}
+
+impl Shell {
+    /// Its triangles.
+    pub fn polygons(&self, field: &Field) -> &Mesh {
+        self.mesh.mesh.get_or_init(|| polygons(field, self.emission as f32, Faces::Closed).unwrap_or_default())
+    }
+
+    /// The corners of a triangle.
+    pub fn triangle(&self, field: &Field, number: usize) -> [DVec3; 3] {
+        let mesh = self.polygons(field);
+        mesh.triangles[number].map(|corner| DVec3::from_array(mesh.corners[corner as usize].map(f64::from)))
+    }
+
+    /// The boxes around its triangles.
+    pub fn hierarchy(&self, field: &Field) -> &Hierarchy {
+        self.mesh.hierarchy.get_or_init(|| {
+            let count = self.polygons(field).triangles.len();
+            let boxes: Vec<Bounds> = (0..count).map(|number| Bounds::around(self.triangle(field, number))).collect();
+            Hierarchy::new(&boxes)
+        })
+    }
+}
+
+impl Shells {
+    /// The shells that settings ask for; none where they ask for none. Shells of `before`, which are those of the same field, are taken
+    /// over where a level stays.
+    ///
+    /// # Errors
+    /// When an emission is below 0, or a shell that is left out is none of them.
+    pub fn new(settings: &ShellsSettings, field: &Field, before: Option<&Self>) -> Result<Option<Self>> {
+        if settings.mode.is_none() {
+            return Ok(None);
+        }
+        let mut levels = match settings.levels.as_slice() {
+            [] => in_the_middle(settings.count as usize, field.range),
+            levels => levels.to_vec(),
+        };
+        levels.sort_by(f64::total_cmp);
+        let asked = levels.len();
+        levels.dedup();
+        let repeated = asked - levels.len();
+        let shown = enabled(&levels, &settings.disabled)?;
+        let emissions: Vec<f64> = shown.iter().map(|level| f64::from(field.x(*level))).collect();
+        if let Some(below) = emissions.iter().position(|emission| *emission < 0.0) {
+            return Err(Error::usage(
+                "shells.levels (--shell-levels)",
+                format!("has the level {}, whose emission is below 0, that of {}", shown[below], field.range[0]),
+                format!("give levels from {} on, or another --range", field.range[0]),
+            ));
+        }
+        let [_, greatest] = field.extremes();
+        let mut shells = Self { repeated, ..Self::default() };
+        for ((level, emission), rise) in shown.into_iter().zip(&emissions).zip(rises(&emissions)) {
+            let known = before.and_then(|before| before.list.iter().find(|shell| shell.level == level));
+            let mesh = known.map_or_else(Arc::default, |shell| shell.mesh.clone());
+            match *emission > f64::from(greatest) {
+                true => shells.empty.push(level),
+                false => shells.list.push(Shell { level, emission: *emission, rise, mesh }),
+            }
+        }
+        Ok(Some(shells))
+    }
+
+    /// Makes the polygons that are not there yet.
+    ///
+    /// # Errors
+    /// When there are more than 32 bits count, or there is not enough memory for them.
+    pub fn build(&self, field: &Field) -> Result<()> {
+        for shell in self.list.iter().filter(|shell| shell.mesh.mesh.get().is_none()) {
+            let made = polygons(field, shell.emission as f32, Faces::Closed)?;
+            shell.mesh.mesh.get_or_init(|| made);
+        }
+        Ok(())
+    }
+
+    /// How many triangles come before each shell, and there are in all.
+    pub fn triangles_before(&self, field: &Field) -> Vec<u64> {
+        let mut before = vec![0];
+        for shell in &self.list {
+            before.push(before[before.len() - 1] + shell.polygons(field).triangles.len() as u64);
+        }
+        before
+    }
+
+    /// What a user should know of them.
+    pub fn warnings(&self, field: &Field) -> Vec<String> {
+        let list = |levels: &[f64]| levels.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+        let repeated =
+            (self.repeated > 0).then(|| format!("{} of the levels of shells were given before", self.repeated));
+        let [low, high] = field.range;
+        let empty = (!self.empty.is_empty()).then(|| {
+            format!(
+                "no value reaches the level {} of a shell, which is left out; values go from {low} to {high}",
+                list(&self.empty)
+            )
+        });
+        repeated.into_iter().chain(empty).collect()
+    }
+}
+
+/// So many levels in the middle of equal parts of a range.
+pub fn in_the_middle(count: usize, [low, high]: [f64; 2]) -> Vec<f64> {
+    let middle = |i: usize| {
+        let part = (i as f64 + 0.5) / count as f64;
+        // Not by the difference, which may overflow.
+        low * (1.0 - part) + high * part
+    };
+    (0..count).map(middle).collect()
+}
+
+/// The levels without those that are left out by their numbers.
+fn enabled(levels: &[f64], disabled: &[u32]) -> Result<Vec<f64>> {
+    if let Some(odd) = disabled.iter().find(|number| !(1..=levels.len()).contains(&(**number as usize))) {
+        return Err(Error::usage(
+            "shells.disabled",
+            format!("has the number {odd}, and there are {} shells", levels.len()),
+            "give numbers from 1 on, the dimmest shell first",
+        ));
+    }
+    let numbered = levels.iter().enumerate();
+    Ok(numbered.filter(|(i, _)| !disabled.contains(&(*i as u32 + 1))).map(|(_, level)| *level).collect())
+}
+
+/// What each emission adds to those below: values between two levels count as half-way between them, and those above the last one as far
+/// above it as those below are below.
+fn rises(emissions: &[f64]) -> Vec<f64> {
+    let (mut within, mut rises) = (0.0, Vec::with_capacity(emissions.len()));
+    for (i, emission) in emissions.iter().enumerate() {
+        let next = match emissions.get(i + 1) {
+            Some(above) => 0.5 * (emission + above),
+            None => 2.0 * emission - within,
+        };
+        rises.push(next - within);
+        within = next;
+    }
+    rises
+}

@@ -1,0 +1,167 @@
+//! Where rays meet the polygons of a shell.
+
+use glam::DVec3;
+
+use super::depth::ShellDepth;
+use super::levels::Shell;
+use crate::math::ray::{Lens, ViewRay, ViewRays};
+use crate::scene::Field;
+
+/// Where a ray meets a triangle of a shell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShellCrossing {
+    /// The triangle's number.
+    pub triangle: u32,
+    /// Depth in front of the eye, the ray's own parameter.
+    pub depth: f64,
+    /// The depth buffer's, from 0 at the far end to 1 at the near end.
+    pub stored: f64,
+    /// How far a rasteriser may see `stored` elsewhere, which moves corners to its raster.
+    pub spread: f64,
+    /// Whether the ray goes into the shell there.
+    pub enters: bool,
+}
+
+/// The crossings of a pixel's ray with a shell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShellCrossings {
+    /// In the order of triangles, which is that of drawing.
+    pub list: Vec<ShellCrossing>,
+    /// Whether a rasteriser may find others.
+    pub undecided: bool,
+}
+
+/// What f32 takes from a depth of the depth buffer.
+const STORED_ROUNDING: f64 = 4e-7;
+
+impl Shell {
+    /// Where the ray through a pixel's centre meets the shell, beyond the near plane. `raster`: steps of the raster that a rasteriser moves
+    /// corners to, in pixels.
+    pub fn crossings(
+        &self,
+        field: &Field,
+        rays: &ViewRays,
+        pixel: [u32; 2],
+        depth: &ShellDepth,
+        raster: f64,
+    ) -> ShellCrossings {
+        let ray = rays.of(pixel[0], pixel[1]);
+        let pixel_width = rays.right.length() + rays.down.length();
+        let wide = match rays.lens {
+            Lens::Perspective => pixel_width * depth.far,
+            Lens::Orthographic => pixel_width,
+        };
+        let mut met = self.hierarchy(field).met(ray.origin, ray.direction, raster * wide);
+        met.sort_unstable();
+        let mut found = ShellCrossings::default();
+        let mut unsure: Vec<ShellCrossing> = Vec::new();
+        for number in met {
+            let arms = self.triangle(field, number as usize).map(|corner| corner - ray.origin);
+            let Some((crossing, inside)) = crossing(rays, &ray, number, arms, depth, raster) else { continue };
+            // A fragment there may lie on either side of the near plane.
+            let cut = (crossing.stored - 1.0).abs() <= crossing.spread
+                || (crossing.depth - rays.near).abs() <= STORED_ROUNDING;
+            found.undecided |= cut && depth.nearest <= rays.near;
+            match inside {
+                Inside::Yes => found.list.push(crossing),
+                Inside::Unsure(here) => {
+                    unsure.push(crossing);
+                    if here {
+                        found.list.push(crossing);
+                    }
+                }
+            }
+        }
+        // Where two triangles share the edge, one of them is met there whatever the rasteriser does.
+        found.undecided |= unsure.iter().any(|one| !unsure.iter().any(|other| stand_in(one, other)));
+        found
+    }
+}
+
+/// Where the ray through a pixel's centre meets a triangle with these corners, beyond the near plane.
+pub fn crossing_of(
+    rays: &ViewRays,
+    pixel: [u32; 2],
+    number: u32,
+    corners: [[f32; 3]; 3],
+    depths: &ShellDepth,
+    raster: f64,
+) -> Option<ShellCrossing> {
+    let ray = rays.of(pixel[0], pixel[1]);
+    let arms = corners.map(|corner| DVec3::from_array(corner.map(f64::from)) - ray.origin);
+    crossing(rays, &ray, number, arms, depths, raster).map(|(crossing, _)| crossing)
+}
+
+/// Where a ray meets the plane of a triangle with these corners, as arms from where the ray comes from, and whether inside of its edges.
+fn crossing(
+    rays: &ViewRays,
+    ray: &ViewRay,
+    number: u32,
+    arms: [DVec3; 3],
+    depths: &ShellDepth,
+    raster: f64,
+) -> Option<(ShellCrossing, Inside)> {
+    let normal = (arms[1] - arms[0]).cross(arms[2] - arms[0]);
+    let (height, slope) = (normal.dot(arms[0]), normal.dot(ray.direction));
+    let enters = slope < 0.0;
+    if slope == 0.0 {
+        return None;
+    }
+    let inside = inside(rays, ray, arms, if enters { -1.0 } else { 1.0 }, raster)?;
+    let to_depth = rays.to_picture().row(2);
+    let corners = arms.map(|arm| to_depth.dot(arm));
+    let [least, greatest] = [f64::min, f64::max].map(|of| corners.into_iter().reduce(of).unwrap_or_default());
+    // Rounding may take it out of a triangle that is seen nearly from the side.
+    let depth = (height / slope).clamp(least, greatest);
+    if !(depth >= rays.near) {
+        return None;
+    }
+    let stored = depths.stored(depth);
+    // What a pixel to the right, or down, adds to `stored`, and the most that there is between the corners.
+    let steep = |across: DVec3| match rays.lens {
+        Lens::Perspective => normal.dot(across) / height * depths.stored_of_inverse(),
+        Lens::Orthographic => normal.dot(across) / slope * depths.stored_of_depth(),
+    };
+    let moved = raster * (steep(rays.right).abs() + steep(rays.down).abs());
+    let apart = depths.stored(least.max(rays.near)) - depths.stored(greatest);
+    let spread = moved.min(apart.abs()) + STORED_ROUNDING;
+    Some((ShellCrossing { triangle: number, depth, stored, spread, enters }, inside))
+}
+
+/// Whether a ray passes on the inner side of all edges of a triangle with these corners, as arms from where the ray comes from; none where
+/// it is farther away than a rasteriser may see it.
+fn inside(rays: &ViewRays, ray: &ViewRay, arms: [DVec3; 3], turn: f64, raster: f64) -> Option<Inside> {
+    let (mut inside, mut unsure) = (true, false);
+    for i in 0..3 {
+        let (from, to) = (arms[i], arms[(i + 1) % 3]);
+        let edge = turn * from.cross(to);
+        let side = edge.dot(ray.direction);
+        // What a pixel to the right, or down, adds to the side.
+        let across = match rays.lens {
+            Lens::Perspective => edge,
+            Lens::Orthographic => (to - from).cross(ray.direction),
+        };
+        let reach = raster * (across.dot(rays.right).abs() + across.dot(rays.down).abs());
+        if side < -reach {
+            return None;
+        }
+        // A ray through the very edge meets one of the two triangles that share it.
+        let first = edge.to_array().into_iter().find(|c| *c != 0.0).unwrap_or(0.0);
+        inside &= side > 0.0 || side == 0.0 && first > 0.0;
+        unsure |= side <= reach;
+    }
+    Some(if unsure { Inside::Unsure(inside) } else { Inside::Yes })
+}
+
+/// Whether a ray passes within the edges of a triangle.
+enum Inside {
+    Yes,
+    /// A rasteriser may see it otherwise.
+    Unsure(bool),
+}
+
+/// Whether one crossing may be taken for another: the same surface at nearly the same place.
+fn stand_in(one: &ShellCrossing, other: &ShellCrossing) -> bool {
+    let near = (one.stored - other.stored).abs() <= one.spread + other.spread;
+    one.triangle != other.triangle && one.enters == other.enters && near
+}
