@@ -106,7 +106,7 @@ fn settings() -> Settings {
 /// Plans of a scene by each method, in each of its forms.
 fn plans(settings: &Settings) -> Vec<Plan> {
     let mut plans = Vec::new();
-    for method in METHODS {
+    for method in METHODS.into_iter().filter(|method| method.takes_samples()) {
         let mut settings = settings.clone();
         settings.method.name = method.name();
         let scene = read::scene(&settings).unwrap();

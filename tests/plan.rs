@@ -16,7 +16,7 @@ use depthleap::part::{Group, Step, Work};
 use depthleap::plan::{Plan, form, plan};
 use depthleap::resource;
 use depthleap::scene::Settings;
-use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, Offset};
+use depthleap::scene::settings::{Alpha, Cull, Filter, Last, Mark, Offset, ShellMode};
 use glam::DVec3;
 
 /// Reads of what no step before has written.
@@ -178,6 +178,7 @@ fn whatever_is_left_out_has_a_reason() {
 fn camera_that_looks_away_has_an_empty_plan() {
     for method in method::METHODS.map(|method| method.name()) {
         let mut settings = settings(method);
+        settings.shells.mode = (method == method::SHELLS.name()).then_some(ShellMode::Max);
         settings.camera.target = [0.0, 0.0, 4.0];
         let plan = planned(&settings);
         assert_eq!((plan.passes, plan.steps.len(), plan.view.longest_samples), (0, 0, 0));

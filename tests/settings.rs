@@ -7,7 +7,7 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 13] = [
+const WITHOUT_OPTION: [(&str, &str); 14] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("volume.mesh", "the argument SCENE|VOLUME names it"),
@@ -20,6 +20,7 @@ const WITHOUT_OPTION: [(&str, &str); 13] = [
     ("effects.translucency", "--translucency gives its absorption"),
     ("effects.file", "--effect names it"),
     ("effects.hash", "runs note it"),
+    ("shells.disabled", "--shell-levels names those that are left"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
 ];
 
@@ -35,7 +36,7 @@ const WITHOUT_KEY: [(&str, &str); 7] = [
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 18] = [
+const WITHOUT_RANGE: [(&str, &str); 19] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.mesh", "a name"),
@@ -53,6 +54,7 @@ const WITHOUT_RANGE: [(&str, &str); 18] = [
     ("effects.file", "a name"),
     ("effects.hash", "held against the file"),
     ("effects.refraction", "a table, whose numbers are held against theirs"),
+    ("shells.mode", "a word"),
     ("effects.translucency", "a table, whose numbers are held against theirs"),
 ];
 

@@ -100,12 +100,14 @@ fn made() -> Vec<(String, Plan)> {
             plans.push((name, plan(scene, form).unwrap()));
         }
     };
-    for method in METHODS {
+    // Shells are drawn by scenes of the matrix.
+    for method in METHODS.into_iter().filter(|method| method.takes_samples()) {
         for like in likes() {
             every_form(method, &scene(method.name(), like), &format!("{like:?}"));
         }
     }
-    for method in METHODS {
+    // Shells are drawn by scenes of the matrix.
+    for method in METHODS.into_iter().filter(|method| method.takes_samples()) {
         for accumulate in [Accumulate::Rgba16f, Accumulate::Rgba8] {
             let mut scene = scene(method.name(), likes()[0]);
             scene.settings.image.accumulate = accumulate;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use depthleap::method;
+use depthleap::part::rows::Method;
 use depthleap::plan;
 use depthleap::read;
 
@@ -22,7 +23,8 @@ fn plans(scene: &Path) -> bool {
             return false;
         }
     };
-    method::METHODS.map(|method| method.name()).into_iter().all(|method| {
+    let cast = method::METHODS.into_iter().filter(|method| method.takes_samples());
+    cast.map(Method::name).all(|method| {
         scene.settings.method.name = method;
         plan::form(&scene, method::papers_form(method)).and_then(|form| plan::plan(&scene, form)).is_ok()
     })

@@ -30,7 +30,7 @@ section! {
     /// Levels of the shells, in the volume's own unit, in place of --shell-count; in any order
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[arg(long = "shell-levels", value_name = "VALUE,...", value_delimiter = ',', value_parser = super::finite_number, allow_hyphen_values = true, action = clap::ArgAction::Set)]
-    levels: Vec<f64> = Vec::new(), by sound;
+    shell_levels as "levels": Vec<f64> = Vec::new(), by sound;
 
     /// Shells that are left out for now, by their numbers from 1 on, dimmest first
     #[serde(skip_serializing_if = "Vec::is_empty")]

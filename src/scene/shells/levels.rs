@@ -75,7 +75,7 @@ impl Shells {
         if settings.mode.is_none() {
             return Ok(None);
         }
-        let mut levels = match settings.levels.as_slice() {
+        let mut levels = match settings.shell_levels.as_slice() {
             [] => in_the_middle(settings.count as usize, field.range),
             levels => levels.to_vec(),
         };
