@@ -156,7 +156,8 @@ fn shader_code_a_scene_does_not_need_is_left_out() {
 
 #[test]
 fn whatever_is_left_out_has_a_reason() {
-    for case in cases() {
+    // What frames without samples lack of these, nobody expects.
+    for case in cases().into_iter().filter(|case| case.plan.method.takes_samples()) {
         assert!(!case.plan.left_out.is_empty(), "{}", case.name);
         let bare: Vec<_> = case.plan.left_out.iter().filter(|l| l.what.is_empty() || l.why.len() < 10).collect();
         assert!(bare.is_empty(), "{}: {bare:?}", case.name);

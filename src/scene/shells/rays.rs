@@ -54,7 +54,7 @@ impl Shell {
         let mut met = self.hierarchy(field).met(ray.origin, ray.direction, raster * wide);
         met.sort_unstable();
         let mut found = ShellCrossings::default();
-        let mut unsure: Vec<ShellCrossing> = Vec::new();
+        let mut unsure: Vec<(ShellCrossing, [bool; 3])> = Vec::new();
         for number in met {
             let arms = self.triangle(field, number as usize).map(|corner| corner - ray.origin);
             let Some((crossing, inside)) = crossing(rays, &ray, number, arms, depth, raster) else { continue };
@@ -64,16 +64,25 @@ impl Shell {
             found.undecided |= cut && depth.nearest <= rays.near;
             match inside {
                 Inside::Yes => found.list.push(crossing),
-                Inside::Unsure(here) => {
-                    unsure.push(crossing);
+                Inside::Unsure { here, edges } => {
+                    unsure.push((crossing, edges));
                     if here {
                         found.list.push(crossing);
                     }
                 }
             }
         }
-        // Where two triangles share the edge, one of them is met there whatever the rasteriser does.
-        found.undecided |= unsure.iter().any(|one| !unsure.iter().any(|other| stand_in(one, other)));
+        // Where two triangles that are seen from one side share an edge, one of them is met there whatever the rasteriser does.
+        let corners = |crossing: &ShellCrossing| self.polygons(field).triangles[crossing.triangle as usize];
+        let is_outline = |one: &ShellCrossing, edge: usize| {
+            let triangle = corners(one);
+            let ends = [triangle[edge], triangle[(edge + 1) % 3]];
+            let shares = |other: &ShellCrossing| ends.iter().all(|end| corners(other).contains(end));
+            !unsure
+                .iter()
+                .any(|(other, _)| one.triangle != other.triangle && one.enters == other.enters && shares(other))
+        };
+        found.undecided |= unsure.iter().any(|(one, edges)| (0..3).any(|edge| edges[edge] && is_outline(one, edge)));
         found
     }
 }
@@ -131,7 +140,7 @@ fn crossing(
 /// Whether a ray passes on the inner side of all edges of a triangle with these corners, as arms from where the ray comes from; none where
 /// it is farther away than a rasteriser may see it.
 fn inside(rays: &ViewRays, ray: &ViewRay, arms: [DVec3; 3], turn: f64, raster: f64) -> Option<Inside> {
-    let (mut inside, mut unsure) = (true, false);
+    let (mut here, mut edges) = (true, [false; 3]);
     for i in 0..3 {
         let (from, to) = (arms[i], arms[(i + 1) % 3]);
         let edge = turn * from.cross(to);
@@ -147,21 +156,18 @@ fn inside(rays: &ViewRays, ray: &ViewRay, arms: [DVec3; 3], turn: f64, raster: f
         }
         // A ray through the very edge meets one of the two triangles that share it.
         let first = edge.to_array().into_iter().find(|c| *c != 0.0).unwrap_or(0.0);
-        inside &= side > 0.0 || side == 0.0 && first > 0.0;
-        unsure |= side <= reach;
+        here &= side > 0.0 || side == 0.0 && first > 0.0;
+        edges[i] = side <= reach;
     }
-    Some(if unsure { Inside::Unsure(inside) } else { Inside::Yes })
+    Some(if edges.contains(&true) { Inside::Unsure { here, edges } } else { Inside::Yes })
 }
 
 /// Whether a ray passes within the edges of a triangle.
 enum Inside {
     Yes,
-    /// A rasteriser may see it otherwise.
-    Unsure(bool),
-}
-
-/// Whether one crossing may be taken for another: the same surface at nearly the same place.
-fn stand_in(one: &ShellCrossing, other: &ShellCrossing) -> bool {
-    let near = (one.stored - other.stored).abs() <= one.spread + other.spread;
-    one.triangle != other.triangle && one.enters == other.enters && near
+    /// A rasteriser may see it otherwise, at these edges.
+    Unsure {
+        here: bool,
+        edges: [bool; 3],
+    },
 }

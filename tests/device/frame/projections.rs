@@ -87,7 +87,7 @@ fn skipping(device: &Arc<Device>, scene: &Scene, turn: usize) {
         let mut rules = BTreeMap::new();
         // The matrix has slices under every projection.
         let here = |row: &&Method| row.on_device && row.stack().is_none() && (!row.loops() || loops_in_turn(row, turn));
-        for row in share(METHODS.into_iter().filter(here), turn + side) {
+        for row in share(METHODS.into_iter().filter(|row| row.takes_samples() && here(row)), turn + side) {
             let scene = by(&scene, row.name());
             let mut counts = None;
             let mut forms = forms_here(device, &scene);

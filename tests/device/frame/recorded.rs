@@ -60,7 +60,7 @@ fn last_form(device: &Device, scene: &Scene) -> Option<Form> {
 fn every_method(_: &Arc<Device>) {
     let device = &alone();
     let mut resident = Resident::new(device);
-    for method in METHODS.into_iter().filter(|method| method.on_device) {
+    for method in METHODS.into_iter().filter(|method| method.on_device && method.takes_samples()) {
         for (on_host, cell) in [(false, 1), (false, 4), (true, 1)] {
             let scene = by(&scene("shells:24", "ramp", |s| s.method.cell = cell), method.name());
             let choice = Choice { form: last_form(device, &scene), on_host, lookup: None };

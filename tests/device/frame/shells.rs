@@ -7,41 +7,41 @@ use depthleap::scene::Scene;
 use depthleap::scene::settings::{Filter, MeshSettings, Settings, ShellMode, ShellOrder, ShellSum};
 use depthleap::vulkan::Device;
 
-use super::compare::{counts, held, same_picture};
+use super::compare::{SAME_SUM, counts, difference, same_picture};
 use super::scenes::{Stage, scene};
 use crate::harness::{Test, test};
 
 type Change = fn(&mut Settings);
 
 const SCENES: [(&str, &str, Change); 9] = [
-    ("greatest", "shells:24x20x16", |s| s.shells.mode = Some(ShellMode::Max)),
-    ("greatest_by_depth", "jets:24", |s| {
-        (s.shells.mode, s.shells.count) = (Some(ShellMode::Max), 7);
+    ("greatest", "gaussian:12x10x8", |s| s.shells.mode = Some(ShellMode::Max)),
+    ("greatest_by_depth", "gaussian:10x11x9", |s| {
+        s.shells.mode = Some(ShellMode::Max);
         (s.shells.beta0, s.shells.a, s.shells.b) = (0.1, 0.6, 0.2);
     }),
-    ("greatest_from_within", "shells:20", |s| {
+    ("greatest_from_within", "gaussian:9", |s| {
         (s.shells.mode, s.shells.a) = (Some(ShellMode::Max), 0.3);
         (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
     }),
-    ("greatest_with_surfaces", "jets:20x24x28", |s| {
+    ("greatest_with_surfaces", "gaussian:9x10x11", |s| {
         (s.shells.mode, s.shells.a, s.shells.b) = (Some(ShellMode::Max), 0.7, 0.3);
         s.meshes = vec![tool([0.6, 0.5, 0.4])];
     }),
-    ("ways", "shells:22x18x20", |s| s.shells.mode = Some(ShellMode::Sum)),
-    ("ways_by_depth_side_by_side", "jets:24", |s| {
+    ("ways", "gaussian:11x9x10", |s| s.shells.mode = Some(ShellMode::Sum)),
+    ("ways_by_depth_side_by_side", "gaussian:10x11x9", |s| {
         (s.shells.mode, s.camera.height) = (Some(ShellMode::Sum), Some(1.2));
         (s.shells.beta0, s.shells.a, s.shells.b) = (0.0, 1.0, 0.5);
     }),
-    ("ways_from_within", "gaussian:20", |s| {
+    ("ways_from_within", "gaussian:9", |s| {
         (s.shells.mode, s.shells.a) = (Some(ShellMode::Sum), 0.3);
         (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
     }),
-    ("ways_with_surfaces", "jets:20x24x28", |s| {
+    ("ways_with_surfaces", "gaussian:9x10x11", |s| {
         (s.shells.mode, s.shells.a, s.shells.b) = (Some(ShellMode::Sum), 0.7, 0.3);
         s.meshes = vec![tool([0.6, 0.5, 0.4])];
     }),
-    ("crossings_with_surfaces", "shells:24", |s| {
-        (s.shells.mode, s.shells.sum, s.shells.count) = (Some(ShellMode::Sum), ShellSum::Crossings, 5);
+    ("crossings_with_surfaces", "gaussian:10", |s| {
+        (s.shells.mode, s.shells.sum) = (Some(ShellMode::Sum), ShellSum::Crossings);
         s.meshes = vec![tool([0.2, 0.1, 0.1])];
     }),
 ];
@@ -58,7 +58,10 @@ fn tool(color: [f64; 3]) -> MeshSettings {
 }
 
 /// The most pixels of a picture that a rasteriser may leave open: outlines of many shells go through it.
-const UNDECIDED: usize = 400;
+const UNDECIDED: usize = 300;
+
+/// The median of how far a rasteriser may move what a pixel shows, in the brightest one: that of a raster of 1/16 pixel.
+const MEDIAN: f64 = 0.05;
 
 pub fn tests() -> Vec<Test> {
     let one = |(name, volume, change): (&'static str, &'static str, Change)| {
@@ -71,7 +74,7 @@ fn shown(volume: &str, change: Change) -> Scene {
     scene(volume, "linear", |s| {
         s.method.name = SHELLS.name();
         s.sampling.filter = Filter::Exact;
-        s.image.size = [63, 51];
+        (s.image.size, s.shells.count) = ([63, 51], 3);
         change(s);
     })
 }
@@ -92,13 +95,28 @@ fn both_orders(device: &Arc<Device>, scene: &Scene) {
         let twin = stage.twin(&scene, None);
         let undecided = twin.undecided.iter().filter(|undecided| **undecided).count();
         let shows = shot.picture.iter().filter(|pixel| pixel[0] > 0.01).count();
-        let largest = held(&shot, &twin, 0.0).unwrap_or_else(|what| panic!("{order:?}: {what}"));
-        let stated = twin.rounding.iter().copied().fold(0.0, f64::max);
+        let largest = difference(&shot.picture, &twin, SAME_SUM).unwrap_or_else(|what| panic!("{order:?}: {what}"));
+        // An outline has two surfaces, one on each side of the shell.
+        let may_differ = 2 * undecided as u64;
+        for (pass, (found, rule)) in counts(&shot).main.iter().zip(&twin.counts.main).enumerate() {
+            let near = found.abs_diff(*rule) <= may_differ;
+            assert!(near, "{order:?}: pass {pass} has {found} fragments, its twin {rule}, {undecided} are undecided");
+        }
+        // Most pixels are held to what f32 takes from them: what a rasteriser may move is where polygons are seen from the side.
+        let brightest = shot.picture.iter().map(|pixel| pixel[0]).fold(0.0, f32::max);
+        let mut stated = twin.rounding.clone();
+        stated.retain(|rounding| *rounding > 0.0);
+        stated.sort_by(f64::total_cmp);
+        let (median, stated) = (stated[stated.len() / 2], stated[stated.len() - 1]);
+        assert!(median < MEDIAN * f64::from(brightest), "{median:e} of {brightest}");
         println!(
-            "{order:?}: {shows} pixels show, {undecided} undecided, {:?} fragments, {largest:.1e} beyond at most {stated:.1e}",
+            "{order:?}: {shows} pixels show, {undecided} undecided, {:?} fragments, {largest:.1e} beyond at most {stated:.1e}, median {median:.1e} of {brightest}",
             counts(&shot).main.iter().sum::<u64>()
         );
-        assert!(shows > 400 && undecided < UNDECIDED.min(shows / 2), "{shows} pixels show, {undecided} are undecided");
+        assert!(
+            shows > 200 && undecided < UNDECIDED.min(shows * 2 / 3),
+            "{shows} pixels show, {undecided} are undecided"
+        );
         if let Some(before) = &before {
             same_picture(&shot.picture, before).unwrap_or_else(|what| panic!("{order:?}: {what}"));
         }
