@@ -1,4 +1,4 @@
-// How bright a shell is [Heidrich95]. Twin: src/twin/shells.rs.
+// How bright a shell is [Heidrich95 §2]. Twin: src/twin/shells.rs.
 //
 // Without a define: the greatest is to be found. Depths are brightness, by the viewport's range, and the depth test keeps the greatest
 // [§2.2, equation 5]; shells are drawn in full brightness, which the depth cue dims to what the depth is.

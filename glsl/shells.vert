@@ -1,4 +1,4 @@
-// Shells, and surfaces among them [Heidrich95]. Depths go from 0 at the far end of the volume to 1 at the near end of what there is, and
+// Shells, and surfaces among them [Heidrich95 §2]. Depths go from 0 at the far end of the volume to 1 at the near end of what there is, and
 // are linear in the picture after the perspective division. The matrix of equation (5), which scales and shifts them for each shell, is
 // the range of depths of the viewport.
 #version 460

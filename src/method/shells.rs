@@ -1,4 +1,4 @@
-//! `shells`: nested iso-surfaces of an emissive volume as flat polygons [Heidrich95].
+//! `shells`: nested iso-surfaces of an emissive volume as flat polygons [Heidrich95 §2].
 
 use super::rows::{RAY_CASTER, peel, takes_in_passes};
 use crate::error::{Error, Result};

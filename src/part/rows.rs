@@ -39,7 +39,7 @@ pub enum Traversal {
     ComputeLoop,
     /// Slices of the volume, a sample each [Thesis §3.4].
     Slices(Stack),
-    /// Nothing: nested iso-surfaces are drawn as polygons [Heidrich95].
+    /// Nothing: nested iso-surfaces are drawn as polygons [Heidrich95 §2].
     Shells,
 }
 

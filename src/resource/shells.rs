@@ -1,4 +1,4 @@
-//! Nested iso-surfaces as polygons [Heidrich95], and what they are drawn with.
+//! Nested iso-surfaces as polygons [Heidrich95 §2], and what they are drawn with.
 
 use std::borrow::Cow;
 

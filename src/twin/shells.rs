@@ -1,4 +1,4 @@
-//! Twin of `glsl/shells.frag`, and of what the depth test makes of shells and of surfaces among them [Heidrich95].
+//! Twin of `glsl/shells.frag`, and of what the depth test makes of shells and of surfaces among them [Heidrich95 §2].
 
 use super::{Effect, Pixel, Twin};
 use crate::math::ray::Lens;

@@ -1,4 +1,4 @@
-//! `[shells]`: nested iso-surfaces of an emissive volume [Heidrich95].
+//! `[shells]`: nested iso-surfaces of an emissive volume [Heidrich95 §2].
 
 use serde::{Deserialize, Serialize};
 

@@ -122,7 +122,7 @@ fn crossing(
     let [least, greatest] = [f64::min, f64::max].map(|of| corners.into_iter().reduce(of).unwrap_or_default());
     // Rounding may take it out of a triangle that is seen nearly from the side.
     let depth = (height / slope).clamp(least, greatest);
-    if !(depth >= rays.near) {
+    if depth.is_nan() || depth < rays.near {
         return None;
     }
     let stored = depths.stored(depth);
