@@ -135,6 +135,36 @@ fn the_sum_of_ways_goes_to_the_emission_integral_and_that_of_crossings_does_not(
     }
 }
 
+#[test]
+fn rays_that_begin_within_shells_sum_up_the_ways_from_there() {
+    for height in [None, Some(0.4)] {
+        let within = |s: &mut Settings| {
+            (s.camera.eye, s.camera.target, s.camera.height) = ([0.05, 0.1, 0.15], [0.3, -0.2, -0.3], height);
+        };
+        let off = errors(ShellMode::Sum, &[4, 16], within);
+        assert!(off[1] < 0.35 * off[0], "{off:?}");
+        let among = settings("gaussian:16", ShellMode::Sum, |s| {
+            within(s);
+            s.meshes = vec![cuboid(1.0)];
+        });
+        assert!(refused(&among).contains("out of it"));
+    }
+}
+
+#[test]
+fn rays_that_meet_no_shell_are_black_and_pixels_of_surfaces_opaque() {
+    // All values lie between 0.25 and 1 of the scalar range, and above all levels but one that shells dim.
+    let scene = scene("gaussian:16", ShellMode::Max, |s| {
+        s.volume.range = Some([-1.0, 1.0].map(Into::into));
+        (s.shells.shell_levels, s.shells.b) = (vec![0.9], 0.1);
+    });
+    let frame = picture(&scene);
+    let [dark, shown] = [0.0, 0.095].map(|x: f64| frame.pixels.iter().filter(|p| (p[0] - x).abs() < 1e-6).count());
+    assert!(shown > 3 && dark > 100 && dark + shown == frame.pixels.len(), "{dark} and {shown}");
+    let sum = picture(&crate::scene("gaussian:16", ShellMode::Sum, |s| s.meshes = vec![cuboid(1.0)]));
+    assert!(sum.pixels.iter().all(|pixel| pixel[3] == 0.0 || pixel[3] == 1.0));
+}
+
 /// The same pixels whatever the order, with fewer fragments where the brightest come first.
 #[test]
 fn the_order_of_shells_changes_counts_alone() {
@@ -227,7 +257,7 @@ fn refused(settings: &Settings) -> String {
 #[test]
 fn what_shells_cannot_draw_is_refused_with_a_reason() {
     type Change = fn(&mut Settings);
-    let cases: [(Change, &str); 15] = [
+    let cases: [(Change, &str); 16] = [
         (|s| s.shells.mode = None, "--shells max"),
         (|s| s.shells.count = 0, "shells.count"),
         (|s| s.shells.count = 1000, "shells.count"),
@@ -237,6 +267,7 @@ fn what_shells_cannot_draw_is_refused_with_a_reason() {
         (|s| s.shells.a = -1.0, "shells.a"),
         (|s| s.shells.disabled = vec![12], "number 12"),
         (|s| s.projection.kind = "xray".parse().unwrap(), "--projection xray"),
+        (|s| (s.method.name, s.shells.a) = (RC.name(), 0.5), "depth cue"),
         (|s| s.surface.iso = Some(90.0), "iso-surfaces"),
         (|s| s.meshes = vec![cuboid(0.5)], "transparent polygons"),
         (|s| s.meshes = vec![cuboid(1.0)], "shells.a"),
@@ -268,7 +299,7 @@ fn odd_levels_are_told_and_ray_casters_show_the_same_emission() {
     let shells = odd.shells.as_ref().unwrap();
     assert_eq!(shells.list.iter().map(|shell| shell.level).collect::<Vec<_>>(), [50.0, 120.0]);
     let told = shells.warnings(&odd.field).join(" ");
-    assert!(told.contains("1 of the levels") && told.contains("900, 1000000"), "{told}");
+    assert!(told.contains("given again") && told.contains("900, 1000000"), "{told}");
     let none = scene("shells:16", ShellMode::Max, |s| s.shells.shell_levels = vec![1e6]);
     let plan = plan::plan(&none, None).unwrap();
     assert!(plan.passes == 0 && plan::warnings(&none, &plan).join(" ").contains("any shell"));

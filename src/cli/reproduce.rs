@@ -24,7 +24,7 @@ const REPEATS: u32 = 3;
 /// the same without. What the thesis leaves open is swept, one choice at a time. Volumes that are not there are named; none
 /// stands in for another but a foot in chapter 6, which is named as such. Where a volume is
 /// there, draws scenes like the papers' figures too. Times the single pass and slices on the volumes of Stegmaier05's Table 1,
-/// and slices and ray casters on those of KW03's, from several directions, and shows frames per second and their ratios
+/// slices and ray casters on those of KW03's, and emissive shells on those of Heidrich95's, from several directions, and shows frames per second and their ratios
 /// beside the papers', and what early ray termination gains and loses. Writes reproduce.html, reproduce.json, reproduce.csv, reproduce-rates.csv and pictures/.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -34,7 +34,8 @@ const REPEATS: u32 = 3;
   depthleap reproduce -o out                         the papers' numbers alone")]
 pub struct ReproduceCommand {
     /// Folder with the volumes, by their names: engine_256cube.nrrd, fuel.nrrd, foot_cadaver.nrrd; mri_head.nrrd and
-    /// aneurism.nrrd are shown besides; buckyball.nrrd, engine.nrrd and ct_head.nrrd are timed
+    /// aneurism.nrrd are shown besides; buckyball.nrrd, engine.nrrd, ct_head.nrrd, neghip.nrrd
+    /// and mra_tof.nrrd are timed
     #[arg(long, value_name = "DIR")]
     data: Option<PathBuf>,
     /// Folder for the files; made where it is missing

@@ -24,6 +24,9 @@ fn skips(context: &Context) -> bool {
 
 fn decisions(context: &Context) -> Result<(), Why> {
     let method = context.method;
+    if !method.takes_samples() {
+        return Err(Why::Untold);
+    }
     if context.form.is_none() {
         return Err(format!("{} culls no fragments", method.name).into());
     }

@@ -29,6 +29,7 @@ mod planes;
 mod preintegration;
 mod reasons;
 pub mod refraction;
+pub mod shells;
 mod start;
 pub mod surface;
 mod transfer_function;

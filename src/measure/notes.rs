@@ -1,7 +1,8 @@
 //! What a reader of the numbers should know, in sentences.
 
 use crate::frame::{FrameRun, LayerCounts};
-use crate::scene::Effect;
+use crate::plan::Plan;
+use crate::scene::{Effect, Scene};
 
 /// What a reader of the numbers should know of an effect; `robust`: whether what shaders read is held within what is there.
 pub(super) fn with_effect(effect: &Effect, robust: bool) -> String {
@@ -27,4 +28,11 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
     let last = layers.iter().rposition(anything);
     let parts: Vec<String> = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().map(told).collect();
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
+}
+
+/// How many polygons a frame of shells draws.
+pub(super) fn polygons_of_shells(scene: &Scene, plan: &Plan) -> Option<String> {
+    let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples())?;
+    let triangles = shells.triangles_before(&scene.field).pop().unwrap_or(0);
+    Some(format!("{} shells of {triangles} triangles", shells.list.len()))
 }

@@ -11,7 +11,7 @@ use super::frame_times::{gpu_times, host_times, pass_times};
 use super::law::law_of_skipping;
 use super::limits;
 use super::measured::Measured;
-use super::notes::{parts_between_layers, with_effect};
+use super::notes::{parts_between_layers, polygons_of_shells, with_effect};
 use super::picture::Picture;
 use super::record::{CountsRecord, EffectRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
@@ -295,6 +295,7 @@ impl<'a> Runner<'a> {
         notes.extend(entry.planned.scene.effect.as_deref().map(|effect| with_effect(effect, robust)));
         notes.extend(parts_between_layers(&entry.counts));
         notes.extend(FragmentKind::of(entry.planned.plan.method.name).and_then(FragmentKind::words).map(str::to_owned));
+        notes.extend(polygons_of_shells(&entry.planned.scene, &entry.planned.plan));
         if entry.planned.plan.method.skips_blocks() {
             let first = entry.planned.scene.settings.method.block_first;
             let order = if first { "before each main pass, the first too" } else { "after each main pass (KW03)" };

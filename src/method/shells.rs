@@ -6,12 +6,12 @@ use crate::feature::START;
 use crate::part::rows::{Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{layer, shells, start};
-use crate::projection;
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Filter, ProjectionName, ShellMode, ShellOrder, ShellSum};
+use crate::scene::settings::{Accumulate, Filter, MethodName, ShellMode, ShellOrder, ShellSum};
+use crate::scene::shells::ShellDepth;
 
 pub const SHELLS: Method = Method {
-    name: "shells",
+    name: MethodName::SHELLS.name(),
     about: "Nested iso-surfaces of an emissive volume as polygons, their greatest emission or the sum",
     source: "Heidrich95",
     takes,
@@ -35,17 +35,10 @@ fn takes(scene: &Scene) -> Result<()> {
             "use --shells max, or --shells sum",
         ));
     };
-    let of_mode = projection::of(&scene.settings).name();
-    let asked = scene.settings.projection.kind;
     let refused = |problem: &str, remedy: &str| Err(Error::usage(method(), problem, remedy));
     let (polygons, opaque) = (&scene.polygons, !scene.polygons.opaque().is_empty());
     let one_sided = || polygons.materials.iter().any(|material| material.is_opaque() && !material.two_sided);
     match () {
-        () if asked != ProjectionName::default() && asked != of_mode => Err(Error::usage(
-            format!("projection.kind (--projection {asked})"),
-            format!("is another one than that of shells, {of_mode}"),
-            "leave one of --projection and --shells out",
-        )),
         () if scene.surface.is_some() => {
             refused("draws no iso-surfaces in light", "use a ray caster, or leave the surface out (--iso)")
         }
@@ -91,8 +84,18 @@ fn takes_lengths(scene: &Scene) -> Result<()> {
             "asks for shells that are closed, and there are holes in this volume, at which they are open",
             "use --nan replace, or --shell-sum crossings",
         ),
+        () if !scene.polygons.opaque().is_empty() && begins_within(scene) => refused(
+            "does not know which shells rays begin within that a surface ends, and the eye, or its near plane, is in the volume",
+            "move the eye out of it, leave the meshes out, or use --shell-sum crossings",
+        ),
         () => Ok(()),
     }
+}
+
+/// Whether rays begin within the volume.
+fn begins_within(scene: &Scene) -> bool {
+    let rays = scene.camera.rays(scene.settings.image.size).ok();
+    rays.and_then(|rays| Some(ShellDepth::of(scene, &rays)?.is_within(&rays))).unwrap_or(false)
 }
 
 /// Surfaces, then the shells in their order; those that hide what is behind them once more before each shell, in its depth.
@@ -100,6 +103,7 @@ fn draw(context: &Context, steps: &mut Steps) {
     steps.extend(context.has(&START).then(|| start::start(context)));
     peel(context, steps);
     steps.enter(0, None);
+    steps.extend(context.opaque.then(|| layer::opaque_first(context)));
     let settings = &context.scene.settings.shells;
     let greatest = settings.mode == Some(ShellMode::Max);
     if context.opaque && !greatest && context.passes > 0 {
@@ -115,5 +119,4 @@ fn draw(context: &Context, steps: &mut Steps) {
         steps.extend((context.opaque && greatest).then(|| shells::surfaces(context, Some(number))));
         steps.push(shells::shell(context, number));
     }
-    steps.extend(context.opaque.then(|| layer::opaque(context)));
 }

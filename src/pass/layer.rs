@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::feature::ISO_SURFACE;
 use crate::geometry::SCREEN;
+use crate::math::blend::Blend;
 use crate::part::access::Usage;
 use crate::part::rows::Context;
 use crate::part::{Draw, Group, Step, Work};
@@ -27,6 +28,15 @@ pub fn layer(context: &Context, layer: u32) -> Step {
 /// Blends the colours of opaque polygons in, whose layer is that behind the transparent ones.
 pub fn opaque(context: &Context) -> Step {
     blended(context, "layer_opaque".to_owned(), context.layers, twin::layer::opaque)
+}
+
+/// Draws the colours of opaque polygons in place of what is there, before what may be in front of them.
+pub fn opaque_first(context: &Context) -> Step {
+    let mut step = blended(context, "layer_opaque".to_owned(), context.layers, twin::layer::opaque_first);
+    if let Work::Draw(draw) = &mut step.work {
+        draw.blend = Blend::Replace;
+    }
+    step
 }
 
 fn blended(context: &Context, name: String, layer: u32, twin: TwinPass) -> Step {

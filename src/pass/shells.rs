@@ -58,9 +58,9 @@ pub fn shell(context: &Context, number: u32) -> Step {
                 accesses.push(Usage::DepthTest.of(resource::SHELL_DEPTH));
                 draw.test = DepthTest { compare: GREATER, write: false, bounds: false };
             }
-            draw.blend = context.blend();
         }
     }
+    draw.blend = context.blend();
     Step::drawn(format!("shell_pass #{number}"), Group::Main, number, accesses, draw)
 }
 

@@ -145,6 +145,7 @@ pub fn check(scene: &Scene) -> Result<()> {
     crate::truth::preintegrated::check(scene)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
+    feature::shells::check(scene, method)?;
     feature::layers::check(scene, method)?;
     feature::surface::check(scene)?;
     feature::lights::check(scene)?;
@@ -226,8 +227,9 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
         return u32::from(view.longest_samples > 0);
     }
     if method.traversal == Traversal::Shells {
-        let shown = scene.shells.as_ref().map_or(0, |shells| shells.list.len() as u32);
-        return if view.region.pixels() == 0 { 0 } else { shown };
+        let shells =
+            scene.shells.as_ref().filter(|shells| view.region.pixels() > 0 && shells.has_polygons(&scene.field));
+        return shells.map_or(0, |shells| shells.list.len() as u32);
     }
     let sampling = &scene.settings.sampling;
     if let Some(slices) = &view.slices {
@@ -270,6 +272,10 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
     if context.method.loops() {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));
+        }
+    } else if !context.method.takes_samples() {
+        if scene.settings.sampling.passes > 0 {
+            left_out.push(LeftOut::new("forced main passes", "each shell is a pass"));
         }
     } else if context.method.stack().is_some() {
         if scene.settings.sampling.passes > 0 && context.method.back_to_front() {

@@ -22,6 +22,7 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     let shells = scene.shells.iter().filter(|_| !plan.method.takes_samples());
     warnings.extend(shells.flat_map(|shells| shells.warnings(&scene.field)));
     warnings.extend(empty(scene, plan));
+    warnings.extend(black(scene, plan));
     warnings.extend(plan.texture.and_then(|_| imprecise(scene, &TextureChoice::of(scene))));
     warnings.extend(rounded_beside_gradients(scene));
     warnings.extend(plan.method.on_device.then(|| out_of_format(scene, plan)).flatten());
@@ -56,7 +57,7 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         return None;
     }
     if plan.passes == 0 && !plan.method.takes_samples() && plan.view.region.pixels() > 0 {
-        return Some("the picture is empty: no value of the volume reaches the level of any shell; give lower levels (--shell-levels)".to_owned());
+        return Some(no_shell(scene));
     }
     if plan.passes == 0 {
         let (eye, target) = (scene.settings.camera.eye, scene.settings.camera.target);
@@ -112,6 +113,32 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
         "the picture is empty: {values}, and over the scalar range {low} to {high} the transfer function {transfer} shows \
          nothing there; try another --tf{advice}"
     ))
+}
+
+/// Why there is no shell to be seen.
+fn no_shell(scene: &Scene) -> String {
+    let all_left_out = scene.shells.as_ref().is_some_and(|shells| shells.list.is_empty() && shells.empty.is_empty());
+    let why = match all_left_out {
+        true => "all shells are left out; give fewer numbers in shells.disabled",
+        false => "no value of the volume reaches the level of any shell; give lower levels (--shell-levels)",
+    };
+    format!("the picture is empty: {why}")
+}
+
+/// That all shells are black.
+fn black(scene: &Scene, plan: &Plan) -> Option<String> {
+    let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples() && plan.passes > 0)?;
+    let settings = &scene.settings.shells;
+    let why = match () {
+        () if shells.list.iter().all(|shell| shell.emission == 0.0) => {
+            "all levels are at the low end of the scalar range, where emission is 0; give another --range or higher levels"
+        }
+        () if settings.a == 0.0 && settings.beta0 + settings.b == 0.0 => {
+            "the depth cue is 0; give --shell-a, --shell-b or --shell-beta0 above 0"
+        }
+        () => return None,
+    };
+    Some(format!("the picture is black: {why}"))
 }
 
 /// That no value is on any surface of a scene.

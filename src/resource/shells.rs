@@ -44,7 +44,7 @@ static SHELL_CORNERS_INFO: ResourceInfo = of_frame(
 pub const SHELL_LEVELS: Resource = Resource::new(&SHELL_LEVELS_INFO);
 static SHELL_LEVELS_INFO: ResourceInfo = of_frame(
     "shell_levels",
-    "what each shell emits, and what that exceeds the next dimmer one by, `ShellLevel` of shells.frag",
+    "what each shell emits, and by how much the emission within it exceeds that around it, `ShellLevel` of shells.frag",
     ResourceKind::Storage(|facts, _| (size_of::<shared::ShellLevel>() * shells(facts).len()) as u64),
     |facts| {
         let levels: Vec<_> = shells(facts).iter().map(shared::ShellLevel::new).collect();
@@ -74,7 +74,7 @@ static SHELL_CUE_INFO: ResourceInfo = of_frame(
     ResourceKind::Uniform(|_, _| size_of::<shared::ShellCue>() as u64),
     |facts| {
         let depth = ShellDepth::of(facts.scene, &facts.view.rays);
-        let cue = depth.map(|depth| shared::ShellCue::new(facts.scene, &depth));
+        let cue = depth.map(|depth| shared::ShellCue::new(facts.scene, &depth, &facts.view.rays));
         cue.iter().flat_map(|cue| bytemuck::bytes_of(cue).to_vec()).collect()
     },
 );

@@ -21,7 +21,7 @@ pub struct ShellCue {
 }
 
 impl ShellCue {
-    pub fn new(scene: &Scene, depth: &ShellDepth) -> Self {
+    pub fn new(scene: &Scene, depth: &ShellDepth, rays: &ViewRays) -> Self {
         let of_depth = match depth.lens {
             Lens::Perspective => [1.0 / depth.far, 1.0 / depth.nearest - 1.0 / depth.far],
             Lens::Orthographic => [depth.far, depth.nearest - depth.far],
@@ -33,7 +33,7 @@ impl ShellCue {
             depth: single(of_depth),
             brightness: (1.0 / depth.scale) as f32,
             lengths: (1.0 / (scene.transfer.reference * scene.field.finest())) as f32,
-            middle: depth.middle() as f32,
+            middle: depth.middle(rays) as f32,
         }
     }
 }

@@ -27,6 +27,13 @@ pub fn opaque(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     Effect::Silent
 }
 
+/// Draws the colour of the opaque surface in place of what is there.
+pub fn opaque_first(_: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    let Some(surface) = pixel.opaque else { return Effect::Discarded };
+    pixel.accumulated = surface.color;
+    Effect::Silent
+}
+
 impl Twin<'_> {
     /// How a sample on a slice, or the colour of a layer, is joined with what is drawn already.
     pub(super) fn blend(&self) -> Blend {

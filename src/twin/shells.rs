@@ -86,7 +86,8 @@ impl Twin<'_> {
             // The rasteriser may see it in front all the same, and then a little in front.
             return (0, 0);
         }
-        pixel.accumulated = self.projection.grey(pixel.shell_depth / depth.scale);
+        let brightness = self.projection.grey(pixel.shell_depth / depth.scale);
+        pixel.accumulated = self.blend().apply(pixel.accumulated, brightness);
         pixel.rounding = reach / depth.scale;
         (1, u64::from(before == 0.0))
     }
@@ -111,9 +112,9 @@ impl Twin<'_> {
         let ray = self.rays.of(pixel.column, pixel.row);
         let lengths = ray.direction.length() / (self.scene.transfer.reference * self.scene.field.finest());
         let enter = self.scene.interval(&ray, self.rays.near).map_or(0.0, |(enter, _)| enter);
-        let end = pixel
-            .opaque
-            .map_or(depth.middle(), |surface| enter + surface.steps * self.step_length() / ray.direction.length());
+        let end = pixel.opaque.map_or(depth.middle(&self.rays), |surface| {
+            enter + surface.steps * self.step_length() / ray.direction.length()
+        });
         let sign = if crossing.enters { 1.0 } else { -1.0 };
         // How far the depth may be off, by how far that of the depth buffer may be.
         let moved = match depth.lens {

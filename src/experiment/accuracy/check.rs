@@ -17,6 +17,10 @@ pub fn check_settings(job: &AccuracyJob) -> Result<()> {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
     }
+    if job.methods.iter().any(|method| method::find(*method).is_some_and(|row| !row.takes_samples())) {
+        let problem = "has no steps, by which errors are measured here";
+        return Err(Error::usage("--method shells", problem, "leave it out, or use render and bench"));
+    }
     if job.settings.surface.shows != Shows::Color {
         return Err(Error::usage(
             "surface.shows (--surface-shows)",

@@ -234,7 +234,7 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         ms,
         timed,
         samples: match one.run.fragment_kind() {
-            Some(FragmentKind::Sample) => one.run.fragments.main,
+            Some(FragmentKind::Sample | FragmentKind::Crossing) => one.run.fragments.main,
             _ => one.run.fragments.main.saturating_mul(samples_per_pass.into()),
         },
         pareto: false,

@@ -15,8 +15,8 @@ pub fn page(found: &Reproduction, pictures: Pictures) -> String {
     let lead = "Use of GPU Functionality in Volume Rendering (NTNU, 2005) counted fragments of near-neighbor skipping beside \
                 those of empty block skipping, alone and with polygons in the volume. Its numbers stand beside ours, of the same \
                 views and steps; what it leaves open is swept. Frame rates of A Simple and Flexible Volume Rendering Framework for \
-                Graphics-Hardware-based Raycasting (2005) and of Acceleration Techniques for GPU-based Volume Rendering (2003) \
-                stand beside ours too.";
+                Graphics-Hardware-based Raycasting (2005), of Acceleration Techniques for GPU-based Volume Rendering (2003) and of \
+                Hardware Accelerated Rendering of Emissive Volumes (1995) stand beside ours too.";
     let mut intro = Intro::new(vec![lead.to_owned()], &found.provenance);
     let timed = found.timed.iter().flat_map(|timed| &timed.rates);
     if let Some(run) = found.columns.iter().chain(timed).flat_map(|c| &c.variants).flat_map(|v| &v.runs).next() {

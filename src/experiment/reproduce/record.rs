@@ -14,9 +14,9 @@
 //! | `figures[].absent` | text or null | why nothing was drawn |
 //! | `figures[].picture` | text or null | a PNG file beside this one |
 //! | `figures[].run` | run or null | as in `results.json` |
-//! | `timed` | {`clock`, `rates`, `termination`} or null | frames of [Stegmaier05] and [KW03] that were timed; absent in results of older programs |
+//! | `timed` | {`clock`, `rates`, `termination`} or null | frames of [Stegmaier05], [KW03] and [Heidrich95 §5] that were timed; absent in results of older programs |
 //! | `timed.clock` | `cpu`, `gpu`, `wall` or null | what times are compared by on this device; null where nothing was timed |
-//! | `timed.rates` | array like `columns` | data sets of its Table 1, and of that of [KW03], told apart by `source`: of each variant a run for each method, viewport (`settings.image`) and direction (`settings.camera`), with `frame_ms`, `cpu_ms` and `gpu_ms`; variants other than the first in the smallest viewport alone |
+//! | `timed.rates` | array like `columns` | data sets of its Table 1, and of those of [KW03] and [Heidrich95 §5], told apart by `source`: of each variant a run for each method, viewport (`settings.image`) and direction (`settings.camera`), with `frame_ms`, `cpu_ms` and `gpu_ms`; variants other than the first in the smallest viewport alone |
 //! | `timed.termination` | one like those of `columns` | early ray termination: the variants are transfer functions, with two runs for each direction: `settings.sampling.termination` below 1, and 1 |
 //!
 //! The papers' own numbers are data of the program ([`papers`](super::papers), [`rates`](super::rates),

@@ -17,8 +17,8 @@ section! {
     #[command(next_help_heading = "Shells")]
     ShellsSettings, ShellsOptions, "shells";
 
-    /// Show the volume's values as an emission, by every method as --projection mip (max) or xray (sum) does; --method shells, which asks
-    /// for it, draws shells of polygons
+    /// Show values as emissions, of which the greatest or the sum counts: --method shells, which asks for it, draws shells of polygons, and
+    /// other methods do as with --projection mip or xray
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long = "shells", value_name = "MODE")]
     mode?: ShellMode;
@@ -41,8 +41,8 @@ section! {
     #[arg(long = "shell-beta0", value_name = "FACTOR", allow_negative_numbers = true)]
     beta0: f64 = 0.0, within FACTORS;
 
-    /// a of the depth cue beta0 + a z + b, where z goes from 0 at the far end of the volume to 1 at its near end, after the perspective
-    /// division: 0 is no depth cue
+    /// a of the depth cue beta0 + a z + b, where z goes from 0 at the far end of the volume to 1 at its near end, or where rays begin within
+    /// it, after the perspective division: 0 is no depth cue
     #[arg(long = "shell-a", value_name = "FACTOR", allow_negative_numbers = true)]
     a: f64 = 0.0, within FACTORS;
 
@@ -65,7 +65,7 @@ section! {
 pub enum ShellMode {
     /// The greatest emission [Heidrich95 §2.2].
     Max,
-    /// The sum of all emissions [Heidrich95 §2.1].
+    /// The sum of emissions [Heidrich95 §2.1], or of ways.
     Sum,
 }
 
@@ -85,7 +85,8 @@ pub enum ShellOrder {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum ShellSum {
-    /// What its emission exceeds the next dimmer one by, times the way within it: the sum goes to the emission integral.
+    /// What the emission within it exceeds that around it by, half-way between levels, times the way within it: the sum goes to the
+    /// emission integral.
     #[default]
     Lengths,
     /// Its emission, each time a ray meets it, as in the paper: the sum knows nothing of ways and grows with the number of shells.

@@ -93,9 +93,16 @@ impl ShellDepth {
         }
     }
 
-    /// A depth within the volume, from which ways are counted that no surface ends: sums are smallest about the middle.
-    pub fn middle(&self) -> f64 {
+    /// Whether rays begin within what is drawn, where nothing can be seen of what is in front of them.
+    pub fn is_within(&self, rays: &ViewRays) -> bool {
+        self.nearest <= rays.near
+    }
+
+    /// The depth to which ways are counted that no surface ends: sums are smallest about the middle. Rays that begin within the volume
+    /// may begin within shells, whose ways to there are none.
+    pub fn middle(&self, rays: &ViewRays) -> f64 {
         match self.lens {
+            _ if self.is_within(rays) => rays.near,
             Lens::Perspective => (self.nearest * self.far).sqrt(),
             Lens::Orthographic => 0.5 * (self.nearest + self.far),
         }

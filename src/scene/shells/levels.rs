@@ -12,13 +12,13 @@ use crate::scene::Field;
 use crate::scene::mesh::Mesh;
 use crate::scene::settings::ShellsSettings;
 
-/// Shells by rising emission, those without polygons left out.
+/// Shells by rising emission, but for those whose level no value reaches.
 #[derive(Clone, Debug, Default)]
 pub struct Shells {
     pub list: Vec<Shell>,
-    /// Levels without polygons, in the volume's own unit.
+    /// Levels that no value reaches, in the volume's own unit.
     pub empty: Vec<f64>,
-    /// How many levels were given more than once.
+    /// How many of the levels that were given are given again.
     pub repeated: usize,
 }
 
@@ -70,7 +70,7 @@ impl Shells {
     /// over where a level stays.
     ///
     /// # Errors
-    /// When an emission is below 0, or a shell that is left out is none of them.
+    /// When an emission is below 0, or `disabled` has a number that no shell has.
     pub fn new(settings: &ShellsSettings, field: &Field, before: Option<&Self>) -> Result<Option<Self>> {
         if settings.mode.is_none() {
             return Ok(None);
@@ -82,19 +82,20 @@ impl Shells {
         levels.sort_by(f64::total_cmp);
         let asked = levels.len();
         levels.dedup();
-        let repeated = asked - levels.len();
+        let repeated = if settings.shell_levels.is_empty() { 0 } else { asked - levels.len() };
         let shown = enabled(&levels, &settings.disabled)?;
         let emissions: Vec<f64> = shown.iter().map(|level| f64::from(field.x(*level))).collect();
         if let Some(below) = emissions.iter().position(|emission| *emission < 0.0) {
             return Err(Error::usage(
                 "shells.levels (--shell-levels)",
-                format!("has the level {}, whose emission is below 0, that of {}", shown[below], field.range[0]),
+                format!("has the level {}, which is below {}, where emission is 0", shown[below], field.range[0]),
                 format!("give levels from {} on, or another --range", field.range[0]),
             ));
         }
         let [_, greatest] = field.extremes();
+        let rises = rises(&emissions, f64::from(greatest));
         let mut shells = Self { repeated, ..Self::default() };
-        for ((level, emission), rise) in shown.into_iter().zip(&emissions).zip(rises(&emissions)) {
+        for ((level, emission), rise) in shown.into_iter().zip(&emissions).zip(rises) {
             let known = before.and_then(|before| before.list.iter().find(|shell| shell.level == level));
             let mesh = known.map_or_else(Arc::default, |shell| shell.mesh.clone());
             match *emission > f64::from(greatest) {
@@ -114,7 +115,20 @@ impl Shells {
             let made = polygons(field, shell.emission as f32, Faces::Closed)?;
             shell.mesh.mesh.get_or_init(|| made);
         }
-        Ok(())
+        let triangles = self.triangles_before(field).pop().unwrap_or(0);
+        match 3 * triangles > u64::from(u32::MAX) {
+            false => Ok(()),
+            true => Err(Error::input(
+                &field.volume.name,
+                format!("has shells of {triangles} triangles, whose corners 32 bits do not count"),
+                "use fewer shells, or other levels",
+            )),
+        }
+    }
+
+    /// Whether there is anything to be drawn: where all values about a level are missing there is not.
+    pub fn has_polygons(&self, field: &Field) -> bool {
+        self.triangles_before(field).pop().unwrap_or(0) > 0
     }
 
     /// How many triangles come before each shell, and there are in all.
@@ -129,12 +143,11 @@ impl Shells {
     /// What a user should know of them.
     pub fn warnings(&self, field: &Field) -> Vec<String> {
         let list = |levels: &[f64]| levels.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-        let repeated =
-            (self.repeated > 0).then(|| format!("{} of the levels of shells were given before", self.repeated));
-        let [low, high] = field.range;
+        let repeated = (self.repeated > 0).then(|| "a level of shells that is given again is drawn once".to_owned());
+        let [low, high] = field.value_extremes().unwrap_or(field.range);
         let empty = (!self.empty.is_empty()).then(|| {
             format!(
-                "no value reaches the level {} of a shell, which is left out; values go from {low} to {high}",
+                "shells at {} are left out, which no value reaches; values go from {low} to {high}",
                 list(&self.empty)
             )
         });
@@ -166,13 +179,13 @@ fn enabled(levels: &[f64], disabled: &[u32]) -> Result<Vec<f64>> {
 }
 
 /// What each emission adds to those below: values between two levels count as half-way between them, and those above the last one as far
-/// above it as those below are below.
-fn rises(emissions: &[f64]) -> Vec<f64> {
+/// above it as those below are below, but not beyond the greatest value.
+fn rises(emissions: &[f64], greatest: f64) -> Vec<f64> {
     let (mut within, mut rises) = (0.0, Vec::with_capacity(emissions.len()));
     for (i, emission) in emissions.iter().enumerate() {
         let next = match emissions.get(i + 1) {
             Some(above) => 0.5 * (emission + above),
-            None => 2.0 * emission - within,
+            None => (2.0 * emission - within).min(greatest.max(*emission)),
         };
         rises.push(next - within);
         within = next;

@@ -3,6 +3,7 @@
 //! To add a table: a file here with its row, and a line in [`RATE_TABLES`].
 
 mod csv;
+mod heidrich;
 mod kw03;
 mod rows;
 mod run;
@@ -16,6 +17,7 @@ use crate::scene::Camera;
 use crate::scene::settings::Settings;
 
 pub use csv::rates_csv;
+pub use heidrich::HEIDRICH;
 pub use kw03::KW03;
 pub use rows::{Rate, RateLine, RateRatio, explained, rate, rate_lines, rate_verdicts};
 pub use run::{TimingPlan, effort, file_of, settings_of, time_rates, turned};
@@ -23,7 +25,7 @@ pub use stegmaier::STEGMAIER;
 pub(super) use tables::{absent_rates, present_rates, rates_sweep, rates_table};
 
 /// Every table of frame rates, in the order of reports.
-pub const RATE_TABLES: [&RateTable; 2] = [&STEGMAIER, &KW03];
+pub const RATE_TABLES: [&RateTable; 3] = [&STEGMAIER, &KW03, &HEIDRICH];
 
 /// A table of frame rates.
 pub struct RateTable {
@@ -61,7 +63,7 @@ pub struct Renderer {
     pub name: &'static str,
     /// The method of ours.
     pub method: &'static Method,
-    /// What the method needs otherwise than the others.
+    /// What the method needs otherwise than the others; it changes nothing where it was done before.
     pub adapt: fn(&mut Settings),
 }
 

@@ -133,7 +133,13 @@ pub fn to_renderer(table: &RateTable, variant: &Variant, renderer: &Renderer, si
 
 /// The runs of a variant by one way of rendering in one viewport.
 fn runs<'a>(variant: &'a Variant, renderer: &'a Renderer, size: u32) -> impl Iterator<Item = &'a Run> {
-    variant.runs.iter().filter(move |run| run.method == renderer.method.name && run.settings.image.size == [size; 2])
+    let is_its_own = |run: &&Run| {
+        let mut settings = run.settings.clone();
+        (renderer.adapt)(&mut settings);
+        settings == run.settings
+    };
+    let of_size = move |run: &&Run| run.method == renderer.method.name && run.settings.image.size == [size; 2];
+    variant.runs.iter().filter(of_size).filter(is_its_own)
 }
 
 /// Frames per second of a variant by one way of rendering in one viewport; none where it was not timed.
