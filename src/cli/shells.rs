@@ -42,11 +42,11 @@ pub struct ShellsCommand {
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     output: PathBuf,
     /// Values of the surfaces, in the volume's own unit, with commas between; in any order
-    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', value_parser = finite_number, allow_hyphen_values = true)]
-    #[arg(required_unless_present = "count", conflicts_with = "count")]
+    #[arg(long = "levels", value_name = "VALUE,...", value_delimiter = ',', value_parser = finite_number, allow_hyphen_values = true)]
+    #[arg(id = "levels_of_file", required_unless_present = "count_of_file", conflicts_with = "count_of_file")]
     levels: Vec<f64>,
     /// Number of levels, each in the middle of an equal part of the scalar range (--range)
-    #[arg(long, value_name = "N")]
+    #[arg(long = "count", id = "count_of_file", value_name = "N")]
     count: Option<usize>,
     /// Close shells at the faces of the volume
     #[arg(long)]

@@ -94,14 +94,13 @@ const KINDS: [(&str, Change); 81] = [
         (s.shells.mode, s.shells.a, s.shells.b, s.shells.count) = (Some(ShellMode::Max), 0.7, 0.4, 3);
         s.meshes = vec![across(1.0)];
     }),
-    ("shells, the sum of ways, with a box among them", |s| {
+    ("shells, the sum of ways, with a box among them, in an orthographic view", |s| {
         (s.shells.mode, s.shells.beta0, s.shells.a, s.shells.count) = (Some(ShellMode::Sum), 0.2, 0.5, 2);
-        s.meshes = vec![across(1.0)];
-    }),
-    ("shells, the sum of crossings, with a box among them, in an orthographic view", |s| {
-        (s.shells.mode, s.shells.sum, s.shells.a) = (Some(ShellMode::Sum), ShellSum::Crossings, 0.5);
-        s.shells.count = 2;
         (s.meshes, s.camera.height) = (vec![across(1.0)], Some(1.2));
+    }),
+    ("shells, the sum of crossings, with a box among them", |s| {
+        (s.shells.mode, s.shells.sum, s.shells.a) = (Some(ShellMode::Sum), ShellSum::Crossings, 0.5);
+        (s.shells.count, s.meshes) = (2, vec![across(1.0)]);
     }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),
