@@ -14,7 +14,7 @@ use depthleap::scene::backdrop::{Backdrop, Pattern};
 use depthleap::scene::environment::Picture;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{
-    Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction, SliceCut,
+    Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction, ShellMode, SliceCut,
 };
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
@@ -65,7 +65,9 @@ fn scenes() -> Vec<Scene> {
     let picture = Picture { size: [3, 2], texels: vec![[0.25, 0.5, 1.0]; 6] };
     bent.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.5 }));
     let cut_there = scene(|s| s.method.slice_cut = SliceCut::Device);
+    let shells = scene(|s| s.shells.mode = Some(ShellMode::Sum));
     vec![
+        shells,
         cut_there,
         aside,
         above,

@@ -36,7 +36,7 @@ const WITHOUT_KEY: [(&str, &str); 7] = [
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 20] = [
+const WITHOUT_RANGE: [(&str, &str); 21] = [
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.mesh", "a name"),
@@ -55,6 +55,7 @@ const WITHOUT_RANGE: [(&str, &str); 20] = [
     ("effects.hash", "held against the file"),
     ("effects.refraction", "a table, whose numbers are held against theirs"),
     ("shells.mode", "a word"),
+    ("shells.disabled", "held against the number of shells"),
     ("shells.levels", "held against one another, and their emissions against 0"),
     ("effects.translucency", "a table, whose numbers are held against theirs"),
 ];
