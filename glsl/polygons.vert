@@ -13,9 +13,6 @@ layout(set = 0, binding = 14, std140) uniform Placement {
 
 layout(location = 0) in vec3 corner;
 
-// Both shaders of polygons place a corner alike, to the bit.
-invariant gl_Position;
-
 layout(location = 0) flat out uint triangle;
 
 void main() {

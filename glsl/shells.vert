@@ -14,9 +14,6 @@ layout(set = 0, binding = 34, std140) uniform ShellPlacement {
 
 layout(location = 0) in vec3 corner;
 
-// Both shaders of polygons place a corner alike, to the bit.
-invariant gl_Position;
-
 void main() {
     vec3 arm = corner - shell_placement.origin.xyz;
     mat4x3 rows =

@@ -210,7 +210,7 @@ fn a_surface_hides_the_shells_behind_it() {
 
 #[test]
 fn ways_end_at_a_surface() {
-    // In a constant medium of x = 1 the sum is the way to the box, in voxels.
+    // In a constant medium of x = 0.5 the sum is half the way to the box, in voxels.
     let scene = scene("constant:16", ShellMode::Sum, |s| {
         s.volume.range = Some([0.0, 1.0].map(Into::into));
         s.shells.shell_levels = vec![0.5];
@@ -221,10 +221,10 @@ fn ways_end_at_a_surface() {
     let [width, height] = scene.settings.image.size;
     let middle = frame.pixels[(height / 2 * width + width / 2) as usize];
     // The box reaches 0.2 from the middle to the eye, the volume 0.5.
-    assert!((middle[0] - 0.3 * 16.0).abs() < 1e-6, "{middle:?}");
+    assert!((middle[0] - 0.5 * 0.3 * 16.0).abs() < 1e-6, "{middle:?}");
     // Within a volume that all lies within the shell, rays end where it ends.
     let corner = frame.pixels[(width / 2) as usize];
-    assert!((corner[0] - 16.0).abs() < 1e-6, "{corner:?}");
+    assert!((corner[0] - 0.5 * 16.0).abs() < 1e-6, "{corner:?}");
 }
 
 #[test]
