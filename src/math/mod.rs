@@ -2,6 +2,7 @@
 
 pub mod blend;
 pub mod bvh;
+pub mod edges;
 pub mod interpolate;
 pub mod opacity;
 pub mod polyhedron;

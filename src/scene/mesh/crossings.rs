@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::polygons::Polygons;
+use crate::math::edges::{WithinEdges, within_edges};
 use crate::math::ray::{Lens, ViewRay, ViewRays};
 
 /// Where the ray of a pixel meets a triangle.
@@ -63,16 +64,9 @@ impl Polygons {
         let mut found = Crossings::default();
         let mut unsure: Vec<Crossing> = Vec::new();
         for number in self.hierarchy.met(ray.origin, ray.direction, raster * pixel_width * far) {
-            let Some((crossing, inside)) = self.crossing(rays, &ray, number, raster) else { continue };
-            match inside {
-                Inside::Yes => found.list.push(crossing),
-                Inside::Unsure(here) => {
-                    unsure.push(crossing);
-                    if here {
-                        found.list.push(crossing);
-                    }
-                }
-            }
+            let Some((crossing, within)) = self.crossing(rays, &ray, number, raster) else { continue };
+            unsure.extend(within.is_unsure().then_some(crossing));
+            found.list.extend(within.here.then_some(crossing));
         }
         let key = |one: &Crossing| nearness(rays.near, one.depth);
         found.list.sort_by(|a, b| key(b).total_cmp(&key(a)).then(a.triangle.cmp(&b.triangle)));
@@ -102,7 +96,7 @@ impl Polygons {
     }
 
     /// Where a ray meets the plane of a triangle, and whether inside of its edges.
-    fn crossing(&self, rays: &ViewRays, ray: &ViewRay, number: u32, raster: f64) -> Option<(Crossing, Inside)> {
+    fn crossing(&self, rays: &ViewRays, ray: &ViewRay, number: u32, raster: f64) -> Option<(Crossing, WithinEdges)> {
         let triangle = &self.triangles[number as usize];
         let arms = triangle.corners.map(|c| DVec3::from_array(c.map(f64::from)) - ray.origin);
         let slope = triangle.normal.dot(ray.direction);
@@ -111,37 +105,9 @@ impl Polygons {
         if slope == 0.0 || depth < rays.near || !(front || self.material(number).two_sided) {
             return None;
         }
-        // Each edge's plane through where the ray comes from; it passes on the inner side of all three, by so many pixels.
-        let turn = if front { -1.0 } else { 1.0 };
-        let (mut inside, mut unsure) = (true, false);
-        for i in 0..3 {
-            let (from, to) = (arms[i], arms[(i + 1) % 3]);
-            let edge = turn * from.cross(to);
-            let side = edge.dot(ray.direction);
-            // What a pixel to the right, or down, adds to the side.
-            let across = match rays.lens {
-                Lens::Perspective => edge,
-                Lens::Orthographic => (to - from).cross(ray.direction),
-            };
-            let reach = raster * (across.dot(rays.right).abs() + across.dot(rays.down).abs());
-            if side < -reach {
-                return None;
-            }
-            // A ray through the very edge meets one of the two triangles that share it.
-            let first = edge.to_array().into_iter().find(|c| *c != 0.0).unwrap_or(0.0);
-            inside &= side > 0.0 || side == 0.0 && first > 0.0;
-            unsure |= side <= reach;
-        }
-        let crossing = Crossing { triangle: number, depth, front };
-        Some((crossing, if unsure { Inside::Unsure(inside) } else { Inside::Yes }))
+        let within = within_edges(rays, ray, arms, front, raster)?;
+        Some((Crossing { triangle: number, depth, front }, within))
     }
-}
-
-/// Whether a ray passes within the edges of a triangle.
-enum Inside {
-    Yes,
-    /// A rasteriser may see it otherwise.
-    Unsure(bool),
 }
 
 fn near(a: f64, b: f64) -> bool {

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::depth::ShellDepth;
 use super::levels::Shell;
+use crate::math::edges::{WithinEdges, within_edges};
 use crate::math::ray::{Lens, ViewRay, ViewRays};
 use crate::scene::Field;
 
@@ -57,20 +58,13 @@ impl Shell {
         let mut unsure: Vec<(ShellCrossing, [bool; 3])> = Vec::new();
         for number in met {
             let arms = self.triangle(field, number as usize).map(|corner| corner - ray.origin);
-            let Some((crossing, inside)) = crossing(rays, &ray, number, arms, depth, raster) else { continue };
+            let Some((crossing, within)) = crossing(rays, &ray, number, arms, depth, raster) else { continue };
             // A fragment there may lie on either side of the near plane.
             let cut = (crossing.stored - 1.0).abs() <= crossing.spread
                 || (crossing.depth - rays.near).abs() <= STORED_ROUNDING;
             found.undecided |= cut && depth.nearest <= rays.near;
-            match inside {
-                Inside::Yes => found.list.push(crossing),
-                Inside::Unsure { here, edges } => {
-                    unsure.push((crossing, edges));
-                    if here {
-                        found.list.push(crossing);
-                    }
-                }
-            }
+            unsure.extend(within.is_unsure().then_some((crossing, within.unsure)));
+            found.list.extend(within.here.then_some(crossing));
         }
         // Where two triangles that are seen from one side share an edge, one of them is met there whatever the rasteriser does.
         let corners = |crossing: &ShellCrossing| self.polygons(field).triangles[crossing.triangle as usize];
@@ -109,14 +103,14 @@ fn crossing(
     arms: [DVec3; 3],
     depths: &ShellDepth,
     raster: f64,
-) -> Option<(ShellCrossing, Inside)> {
+) -> Option<(ShellCrossing, WithinEdges)> {
     let normal = (arms[1] - arms[0]).cross(arms[2] - arms[0]);
     let (height, slope) = (normal.dot(arms[0]), normal.dot(ray.direction));
     let enters = slope < 0.0;
     if slope == 0.0 {
         return None;
     }
-    let inside = inside(rays, ray, arms, if enters { -1.0 } else { 1.0 }, raster)?;
+    let within = within_edges(rays, ray, arms, enters, raster)?;
     let to_depth = rays.to_picture().row(2);
     let corners = arms.map(|arm| to_depth.dot(arm));
     let [least, greatest] = [f64::min, f64::max].map(|of| corners.into_iter().reduce(of).unwrap_or_default());
@@ -134,40 +128,5 @@ fn crossing(
     let moved = raster * (steep(rays.right).abs() + steep(rays.down).abs());
     let apart = depths.stored(least.max(rays.near)) - depths.stored(greatest);
     let spread = moved.min(apart.abs()) + STORED_ROUNDING;
-    Some((ShellCrossing { triangle: number, depth, stored, spread, enters }, inside))
-}
-
-/// Whether a ray passes on the inner side of all edges of a triangle with these corners, as arms from where the ray comes from; none where
-/// it is farther away than a rasteriser may see it.
-fn inside(rays: &ViewRays, ray: &ViewRay, arms: [DVec3; 3], turn: f64, raster: f64) -> Option<Inside> {
-    let (mut here, mut edges) = (true, [false; 3]);
-    for i in 0..3 {
-        let (from, to) = (arms[i], arms[(i + 1) % 3]);
-        let edge = turn * from.cross(to);
-        let side = edge.dot(ray.direction);
-        // What a pixel to the right, or down, adds to the side.
-        let across = match rays.lens {
-            Lens::Perspective => edge,
-            Lens::Orthographic => (to - from).cross(ray.direction),
-        };
-        let reach = raster * (across.dot(rays.right).abs() + across.dot(rays.down).abs());
-        if side < -reach {
-            return None;
-        }
-        // A ray through the very edge meets one of the two triangles that share it.
-        let first = edge.to_array().into_iter().find(|c| *c != 0.0).unwrap_or(0.0);
-        here &= side > 0.0 || side == 0.0 && first > 0.0;
-        edges[i] = side <= reach;
-    }
-    Some(if edges.contains(&true) { Inside::Unsure { here, edges } } else { Inside::Yes })
-}
-
-/// Whether a ray passes within the edges of a triangle.
-enum Inside {
-    Yes,
-    /// A rasteriser may see it otherwise, at these edges.
-    Unsure {
-        here: bool,
-        edges: [bool; 3],
-    },
+    Some((ShellCrossing { triangle: number, depth, stored, spread, enters }, within))
 }
