@@ -33,6 +33,18 @@ pub struct ResourceInfo {
     pub origin: Origin,
 }
 
+impl ResourceInfo {
+    /// What the host has anew for every frame.
+    pub const fn of_frame(
+        name: &'static str,
+        holds: &'static str,
+        kind: ResourceKind,
+        bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>,
+    ) -> Self {
+        Self { name, holds, kind, life: Life::Frame, origin: Origin::Host(bytes) }
+    }
+}
+
 /// Bytes of a buffer, by the [`Facts`] and the index of the resource.
 pub type Bytes = fn(&Facts, u16) -> u64;
 

@@ -4,25 +4,15 @@ use std::borrow::Cow;
 
 use ash::vk;
 
-use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
+use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::shared;
-
-/// What the host has anew for every frame.
-const fn of_frame(
-    name: &'static str,
-    holds: &'static str,
-    kind: ResourceKind,
-    bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>,
-) -> ResourceInfo {
-    ResourceInfo { name, holds, kind, life: Life::Frame, origin: Origin::Host(bytes) }
-}
 
 /// A triangle over the whole picture: clip coordinates.
 const WHOLE: [[f32; 3]; 3] = [[-1.0, -1.0, 1.0], [3.0, -1.0, 1.0], [-1.0, 3.0, 1.0]];
 
 /// What covers every pixel.
 pub const SCREEN_CORNERS: Resource = Resource::new(&SCREEN_CORNERS_INFO);
-static SCREEN_CORNERS_INFO: ResourceInfo = of_frame(
+static SCREEN_CORNERS_INFO: ResourceInfo = ResourceInfo::of_frame(
     "screen_corners",
     "corners of a triangle in clip space that covers the picture",
     ResourceKind::Vertices(|_, _| size_of_val(&WHOLE) as u64),
@@ -31,7 +21,7 @@ static SCREEN_CORNERS_INFO: ResourceInfo = of_frame(
 
 /// Corners of all polygons of the scene.
 pub const POLYGON_CORNERS: Resource = Resource::new(&POLYGON_CORNERS_INFO);
-static POLYGON_CORNERS_INFO: ResourceInfo = of_frame(
+static POLYGON_CORNERS_INFO: ResourceInfo = ResourceInfo::of_frame(
     "polygon_corners",
     "corners of triangles in volume space; the transparent ones, then those of clip geometry, then the opaque ones",
     ResourceKind::Vertices(|facts, _| (size_of::<[[f32; 3]; 3]>() * facts.scene.polygons.triangles.len()) as u64),
@@ -43,7 +33,7 @@ static POLYGON_CORNERS_INFO: ResourceInfo = of_frame(
 
 /// Planes of all polygons as the eye has them.
 pub const TRIANGLES: Resource = Resource::new(&TRIANGLES_INFO);
-static TRIANGLES_INFO: ResourceInfo = of_frame(
+static TRIANGLES_INFO: ResourceInfo = ResourceInfo::of_frame(
     "triangles",
     "unit normal of a triangle and distance of its plane from the eye, volume space, as double-floats; its material",
     ResourceKind::Storage(|facts, _| (size_of::<shared::Triangle>() * facts.scene.polygons.triangles.len()) as u64),
@@ -56,7 +46,7 @@ static TRIANGLES_INFO: ResourceInfo = of_frame(
 
 /// The looks of meshes.
 pub const MATERIALS: Resource = Resource::new(&MATERIALS_INFO);
-static MATERIALS_INFO: ResourceInfo = of_frame(
+static MATERIALS_INFO: ResourceInfo = ResourceInfo::of_frame(
     "materials",
     "linear colour and opacity of the fronts and of the backs of a mesh, whether backs show, which clip mesh it is",
     ResourceKind::Storage(|facts, _| (size_of::<shared::Material>() * facts.scene.polygons.materials.len()) as u64),
@@ -68,7 +58,7 @@ static MATERIALS_INFO: ResourceInfo = of_frame(
 
 /// From volume space to the picture.
 pub const PLACEMENT: Resource = Resource::new(&PLACEMENT_INFO);
-static PLACEMENT_INFO: ResourceInfo = of_frame(
+static PLACEMENT_INFO: ResourceInfo = ResourceInfo::of_frame(
     "placement",
     "where a point of volume space lies in the picture, `Placement` of polygons.vert",
     ResourceKind::Uniform(|_, _| size_of::<shared::Placement>() as u64),

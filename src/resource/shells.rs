@@ -1,22 +1,10 @@
 //! Nested iso-surfaces as polygons [Heidrich95 §2], and what they are drawn with.
 
-use std::borrow::Cow;
-
 use ash::vk;
 
 use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::shells::{Shell, ShellDepth, Shells};
 use crate::shared;
-
-/// What the host has anew for every frame.
-const fn of_frame(
-    name: &'static str,
-    holds: &'static str,
-    kind: ResourceKind,
-    bytes: for<'a> fn(&Facts<'a>) -> Cow<'a, [u8]>,
-) -> ResourceInfo {
-    ResourceInfo { name, holds, kind, life: Life::Frame, origin: Origin::Host(bytes) }
-}
 
 /// The shells of a scene.
 fn shells<'a>(facts: &Facts<'a>) -> &'a [Shell] {
@@ -25,7 +13,7 @@ fn shells<'a>(facts: &Facts<'a>) -> &'a [Shell] {
 
 /// Corners of all shells.
 pub const SHELL_CORNERS: Resource = Resource::new(&SHELL_CORNERS_INFO);
-static SHELL_CORNERS_INFO: ResourceInfo = of_frame(
+static SHELL_CORNERS_INFO: ResourceInfo = ResourceInfo::of_frame(
     "shell_corners",
     "corners of triangles in volume space, shell by shell, the dimmest first",
     ResourceKind::Vertices(|facts, _| {
@@ -42,7 +30,7 @@ static SHELL_CORNERS_INFO: ResourceInfo = of_frame(
 
 /// Emissions of shells.
 pub const SHELL_LEVELS: Resource = Resource::new(&SHELL_LEVELS_INFO);
-static SHELL_LEVELS_INFO: ResourceInfo = of_frame(
+static SHELL_LEVELS_INFO: ResourceInfo = ResourceInfo::of_frame(
     "shell_levels",
     "what each shell emits, and by how much the emission within it exceeds that around it, `ShellLevel` of shells.frag",
     ResourceKind::Storage(|facts, _| (size_of::<shared::ShellLevel>() * shells(facts).len()) as u64),
@@ -54,7 +42,7 @@ static SHELL_LEVELS_INFO: ResourceInfo = of_frame(
 
 /// From volume space to the picture, with the depth of shells.
 pub const SHELL_PLACEMENT: Resource = Resource::new(&SHELL_PLACEMENT_INFO);
-static SHELL_PLACEMENT_INFO: ResourceInfo = of_frame(
+static SHELL_PLACEMENT_INFO: ResourceInfo = ResourceInfo::of_frame(
     "shell_placement",
     "where a point of volume space lies in the picture and between the far and the near end of the view, `ShellPlacement` of shells.vert",
     ResourceKind::Uniform(|_, _| size_of::<shared::Placement>() as u64),
@@ -68,7 +56,7 @@ static SHELL_PLACEMENT_INFO: ResourceInfo = of_frame(
 
 /// The depth cue.
 pub const SHELL_CUE: Resource = Resource::new(&SHELL_CUE_INFO);
-static SHELL_CUE_INFO: ResourceInfo = of_frame(
+static SHELL_CUE_INFO: ResourceInfo = ResourceInfo::of_frame(
     "shell_cue",
     "the depth cue and the way from depths to the eye, `ShellCue` of shells.frag",
     ResourceKind::Uniform(|_, _| size_of::<shared::ShellCue>() as u64),
