@@ -3,9 +3,10 @@
 // Without a define: the greatest is to be found. Depths are brightness, by the viewport's range, and the depth test keeps the greatest
 // [§2.2, equation 5]; shells are drawn in full brightness, which the depth cue dims to what the depth is.
 // CROSSINGS: the sum of emissions, each dimmed by the depth cue [§2.1, §3].
-// LENGTHS: what the emission within the shell exceeds that around it by, times the way there, which is that to where a ray leaves less
-// that to where it enters. Ways are counted to the middle of the view or, with OPAQUE, to the surface that ends the ray. The paper has no
-// such sum; its own goes to no integral however many shells there are.
+// LENGTHS: by how much the emission within the shell exceeds that around it, times the way there. Each fragment brings the way from it to
+// one depth for all shells, with the sign of whether the ray enters there or leaves: that depth is the middle of the view, where rays
+// begin within the volume their begin or, with OPAQUE, that of the surface that ends the ray. The paper has no such sum; its own goes to
+// no integral, however many shells there are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes [CROSSINGS | LENGTHS], [OPAQUE], [ORTHOGRAPHIC]
@@ -16,7 +17,7 @@
 struct ShellLevel {
     // phi.
     float emission;
-    // By how much it exceeds that of the next dimmer shell, half-way between levels.
+    // By how much the emission within the shell exceeds that around it, half-way between levels.
     float rise;
 };
 
@@ -36,7 +37,7 @@ layout(set = 0, binding = 35, std140) uniform ShellCue {
     float brightness;
     // Reference lengths in a unit of volume space.
     float lengths;
-    // A depth in the middle of the view.
+    // The depth that ways are counted to where no surface ends the ray.
     float middle;
 } shell_cue;
 

@@ -22,10 +22,11 @@ const REPEATS: u32 = 3;
 /// Counts the fragments of the thesis' Tables 1 and 2 of chapters 5 and 6 and of chapter 7 with its volumes, views and steps,
 /// and prints its numbers beside ours, with the ratios to block skipping; of chapter 6, polygons in the volume, with those to
 /// the same without. What the thesis leaves open is swept, one choice at a time. Volumes that are not there are named; none
-/// stands in for another but a foot in chapter 6, which is named as such. Where a volume is
-/// there, draws scenes like the papers' figures too. Times the single pass and slices on the volumes of Stegmaier05's Table 1,
-/// slices and ray casters on those of KW03's, and emissive shells on those of Heidrich95's, from several directions, and shows frames per second and their ratios
-/// beside the papers', and what early ray termination gains and loses. Writes reproduce.html, reproduce.json, reproduce.csv, reproduce-rates.csv and pictures/.
+/// stands in for another but a foot in chapter 6, which is named as such. Where a volume is there, draws scenes like the
+/// papers' figures too. Times the single pass and slices on the volumes of Stegmaier05's Table 1, slices and ray casters on
+/// those of KW03's, and emissive shells on those of Heidrich95's, from several directions, and shows frames per second and
+/// their ratios beside the papers', and what early ray termination gains and loses. Writes reproduce.html, reproduce.json,
+/// reproduce.csv, reproduce-rates.csv and pictures/.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap reproduce --data volumes -o out

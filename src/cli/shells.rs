@@ -26,9 +26,9 @@ const MOST_LEVELS: usize = settings::MOST_LEVELS as usize;
 ///
 /// Finds the shells of a volume, a surface for each level, by marching cubes between the voxels' centres and out to the faces of the
 /// volume [Heidrich95 §2], and writes them to one PLY file: triangles with shared vertices in volume space, each vertex with its level
-/// as `value`. Surfaces are closed except at holes (--nan hole) and, without --closed, at the faces of the volume; where voxels lie at the level itself,
-/// vertices coincide and some triangles have no area. Clip planes and clip geometry take nothing away. Prints polygons and CPU time of
-/// each level to standard error.
+/// as `value`. Surfaces are closed except at holes (--nan hole) and, without --closed, at the faces of the volume; where voxels lie at
+/// the level itself, vertices coincide and some triangles have no area. Clip planes and clip geometry take nothing away. Prints polygons
+/// and CPU time of each level to standard error.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap shells fuel.nrrd --levels 40,80,120 -o fuel.ply

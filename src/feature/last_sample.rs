@@ -1,6 +1,6 @@
 //! What the last sample of a ray stands for.
 
-use crate::part::rows::{Feature, Hook, Why};
+use crate::part::rows::{Feature, Hook};
 use crate::scene::settings::Last;
 
 /// The last sample stands for what is left of the ray.
@@ -10,7 +10,6 @@ pub const LAST_SAMPLE: Feature = Feature {
         vec![("LAST_PARTIAL", u32::from(context.has(&LAST_SAMPLE))), ("LAST_NONE", u32::from(none))]
     },
     ..Feature::at(Hook::Ray, "length of the last sample", |context| match context.scene.last() {
-        _ if !context.method.takes_samples() => Err(Why::Untold),
         Last::Partial => Ok(()),
         Last::Full => Err("every sample stands for a whole step".into()),
         Last::None => Err("a ray ends before a step that would leave the volume".into()),

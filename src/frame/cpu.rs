@@ -180,12 +180,8 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32) -> (CpuFrame, Vec<u64>) {
         for (step, count) in plan.frame().iter().zip(&mut fragments) {
             let of_step = match &step.work {
                 Work::Draw(draw) => {
-                    let met = hits.of(
-                        draw.geometry,
-                        twin.scene,
-                        &plan.view,
-                        Sample { pixel: [column, row], raster: twin.raster },
-                    );
+                    let sample = Sample { pixel: [column, row], raster: twin.raster };
+                    let met = hits.of(draw.geometry, twin.scene, &plan.view, sample);
                     (met.fragments > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
                 }
                 Work::Pixels(pixels) => plan.view.region.contains([column, row]).then_some(Some(pixels.twin)),

@@ -7,11 +7,11 @@ use crate::part::rows::{Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{layer, shells, start};
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Filter, MethodName, ShellMode, ShellOrder, ShellSum};
+use crate::scene::settings::{Accumulate, Filter, ShellMode, ShellOrder, ShellSum};
 use crate::scene::shells::ShellDepth;
 
 pub const SHELLS: Method = Method {
-    name: MethodName::SHELLS.name(),
+    name: "shells",
     about: "Nested iso-surfaces of an emissive volume as polygons, their greatest emission or the sum",
     source: "Heidrich95",
     takes,
@@ -100,7 +100,7 @@ fn begins_within(scene: &Scene) -> bool {
 
 /// Surfaces, then the shells in their order; those that hide what is behind them once more before each shell, in its depth.
 fn draw(context: &Context, steps: &mut Steps) {
-    steps.extend(context.has(&START).then(|| start::start(context)));
+    steps.extend(context.has(&START).then(start::black));
     peel(context, steps);
     steps.enter(0, None);
     steps.extend(context.opaque.then(|| layer::opaque_first(context)));

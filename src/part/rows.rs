@@ -291,7 +291,7 @@ impl<'a> Context<'a> {
 
     /// Whether the frame has a feature, else why not.
     pub fn answer(&self, feature: &Feature) -> Result<(), Why> {
-        if feature.at == Hook::Sample && !self.method.takes_samples() {
+        if matches!(feature.at, Hook::Ray | Hook::Sample) && !self.method.takes_samples() {
             return Err(Why::Untold);
         }
         // It differs from part to part of a ray, and is soon answered.

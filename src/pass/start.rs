@@ -19,3 +19,11 @@ pub fn start(context: &Context) -> Step {
     draw.specialize([constants::projection(context)]);
     Step::drawn("start".to_owned(), Group::Setup, 0, accesses, draw)
 }
+
+/// The same where nothing but surfaces emits.
+pub fn black() -> Step {
+    let accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Color.of(resource::ACCUMULATED)];
+    let mut draw = Draw::plain(&BOX_FRONT, "start.frag", twin::start::black);
+    draw.define(["BLACK"]);
+    Step::drawn("start".to_owned(), Group::Setup, 0, accesses, draw)
+}

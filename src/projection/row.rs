@@ -1,7 +1,7 @@
 //! What a row of projections says.
 
 use crate::math::blend::Blend;
-use crate::scene::settings::{Last, MethodName, Offset, ProjectionName, Settings};
+use crate::scene::settings::{Last, Offset, ProjectionName, Settings};
 use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::scene::{Field, Scene};
 
@@ -139,10 +139,6 @@ impl Projection {
 
     /// What values of a scene are held against, in the unit that `map` leads to; nothing where it shows colours.
     pub fn levels(&self, scene: &Scene, map: TextureMap) -> Levels {
-        if scene.settings.method.name == MethodName::SHELLS {
-            // Where a ray meets no shell, nothing is emitted.
-            return Levels::new(map.offset, map.offset);
-        }
         let of = |values: &OfValues| (values.levels)(&ValueSpan::of(&scene.field, map));
         self.values.as_ref().map_or_else(Levels::default, of)
     }

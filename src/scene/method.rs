@@ -18,9 +18,6 @@ impl MethodName {
     /// What is not a method: one is to be chosen for the scene.
     pub const AUTO: Self = Self("auto");
 
-    /// Nested iso-surfaces of an emissive volume [Heidrich95 §2], whose pictures have no samples.
-    pub const SHELLS: Self = Self("shells");
-
     /// The name as a text.
     pub const fn name(self) -> &'static str {
         self.0

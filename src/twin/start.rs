@@ -18,3 +18,9 @@ pub fn start(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     pixel.accumulated = [value, value, value, 1.0];
     Effect::Silent
 }
+
+/// Fills RES, opaque, with what a ray holds that meets no shell.
+pub fn black(_: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    pixel.accumulated = [0.0, 0.0, 0.0, 1.0];
+    Effect::Silent
+}

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::Shows;
+use crate::scene::settings::{MethodName, Shows};
 
 /// Whether a job can be measured, before any file is read.
 ///
@@ -17,9 +17,10 @@ pub fn check_settings(job: &AccuracyJob) -> Result<()> {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
     }
-    if job.methods.iter().any(|method| method::find(*method).is_some_and(|row| !row.takes_samples())) {
+    let has_no_steps = |method: &&MethodName| method::find(**method).is_some_and(|row| !row.takes_samples());
+    if let Some(method) = job.methods.iter().find(has_no_steps) {
         let problem = "has no steps, by which errors are measured here";
-        return Err(Error::usage("--method shells", problem, "leave it out, or use render and bench"));
+        return Err(Error::usage(format!("--method {method}"), problem, "leave it out, or use render and bench"));
     }
     if job.settings.surface.shows != Shows::Color {
         return Err(Error::usage(
