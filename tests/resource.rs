@@ -151,7 +151,8 @@ fn what_is_built_has_a_recipe_that_makes_it() {
         for build in plan.builds.iter().filter(|build| recipe(build.asset.resource).is_some()) {
             let last = &plan.steps[build.steps.clone()].last().unwrap();
             let writes = last.accesses.iter().filter(|access| access.usage.writes());
-            let assets: Vec<Asset> = writes.map(|access| Asset::of(access.resource, plan.distance)).collect();
+            let assets: Vec<Asset> =
+                writes.map(|access| Asset::of(access.resource, plan.distance, scene.shells.as_deref())).collect();
             assert_eq!(assets, [build.asset], "{} of {}", last.name, scene.settings.method.name.name());
         }
     }
@@ -164,7 +165,7 @@ fn frames_share_what_depends_on_the_same() {
     let scene = scene(|_| {});
     let [omni, octants, along, cone] =
         [Distance::Omni, Distance::Directional, Distance::Optimal, Distance::Cone].map(|d| Lookup::new(&scene, d));
-    let asset = |resource, lookup| Asset::of(resource, Some(lookup));
+    let asset = |resource, lookup| Asset::of(resource, Some(lookup), None);
     // Whatever the distances are for, the cells are the same.
     for resource in [resource::INTERESTING, resource::WIDE_2, resource::VOLUME, resource::SUPPORT] {
         assert_eq!(asset(resource, omni), asset(resource, along), "{resource:?}");

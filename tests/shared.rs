@@ -83,7 +83,26 @@ fn step() -> Layout {
 }
 
 fn slice() -> Layout {
-    layout!(Slice { first, end, cells_x, cells_y, cells_z, cell, inner, outer, stride, weight, reach, octant })
+    layout!(Slice {
+        first,
+        end,
+        cells_x,
+        cells_y,
+        cells_z,
+        cell,
+        inner,
+        outer,
+        stride,
+        weight,
+        reach,
+        octant,
+        corners,
+        level,
+        threshold,
+        voxel_x,
+        voxel_y,
+        voxel_z
+    })
 }
 
 fn bundle() -> Layout {

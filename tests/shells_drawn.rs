@@ -232,7 +232,7 @@ fn a_level_that_changes_leaves_the_other_shells() {
     use depthleap::scene::Shells;
     let first = scene("jets:16", ShellMode::Max, |s| s.shells.shell_levels = vec![50.0, 100.0, 150.0]);
     let before = first.shells.as_ref().unwrap();
-    before.build(&first.field).unwrap();
+    before.count(&first.field).unwrap();
     let mut settings = first.settings.shells.clone();
     settings.shell_levels = vec![50.0, 110.0, 150.0];
     let after = Shells::new(&settings, &first.field, Some(before)).unwrap().unwrap();

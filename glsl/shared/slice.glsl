@@ -21,6 +21,14 @@ layout(push_constant) uniform Slice {
     uint reach;
     // The octant distances are for: bit a set where rays go down on axis a.
     uint octant;
+    // Vertices of a shell, its level among the texture's values, and what values that are not below it are at least.
+    uint corners;
+    float level;
+    float threshold;
+    // Sides of a voxel in volume space.
+    float voxel_x;
+    float voxel_y;
+    float voxel_z;
 } slice;
 
 // What this invocation is to make.

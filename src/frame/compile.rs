@@ -20,7 +20,7 @@ use crate::scene::Region;
 use crate::scene::Scene;
 use crate::scene::settings::{Filter, Formats};
 use crate::vulkan::{
-    Bound, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, ImageShape,
+    Bound, Buffer, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, ImageShape,
     RenderPass, RenderPassInfo, Sampler,
 };
 
@@ -30,6 +30,8 @@ pub struct Compiled {
     pub targets: HashMap<Resource, Image>,
     /// Uploads of this frame: its box and its view.
     pub own: HashMap<Resource, DeviceObject>,
+    /// Corners of geometries that outlive the frame.
+    pub vertices: HashMap<Resource, Buffer>,
     pub marks_buffer: Option<DeviceObject>,
     pub region: Region,
 }
@@ -51,8 +53,10 @@ pub struct CompiledDraw {
     pub pipeline: Arc<GraphicsPipeline>,
     pub set: Arc<DescriptorSet>,
     pub clears: Vec<vk::ClearValue>,
-    /// Corners of the geometry.
+    /// Corners of the geometry, or numbers of them.
     pub corners: Range<u32>,
+    /// Where the list of their numbers begins, bytes.
+    pub numbers: Option<u64>,
 }
 
 /// What a compute shader over the pixels binds.
@@ -68,6 +72,7 @@ struct Compiler<'a> {
     resident: &'a mut Resident,
     targets: HashMap<Resource, Image>,
     own: HashMap<Resource, DeviceObject>,
+    vertices: HashMap<Resource, Buffer>,
     linear: Option<Sampler>,
     nearest: Sampler,
     framebuffers: HashMap<(RenderPassInfo, Vec<Resource>), Arc<Framebuffer>>,
@@ -91,6 +96,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         resident,
         targets: targets(device, plan, formats)?,
         own: of_frame(device, scene, plan)?,
+        vertices: HashMap::new(),
         linear: match scene.settings.sampling.filter {
             Filter::Hardware => Some(Sampler::new(device, "trilinear", true)?),
             Filter::Exact | Filter::Nearest => None,
@@ -123,6 +129,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         steps: compiled,
         targets: compiler.targets,
         own: compiler.own,
+        vertices: compiler.vertices,
         marks_buffer,
         region: plan.view.region,
     })
@@ -218,6 +225,8 @@ impl Compiler<'_> {
         };
         let pipeline = self.resident.pipelines.pipeline(&key, step.pass_name())?;
         let set = self.set(&key, step, &pipeline)?;
+        let kept = self.resident.of_plan(self.plan, draw.vertices).and_then(DeviceObject::buffer);
+        self.vertices.extend(kept.map(|buffer| (draw.vertices, buffer.clone())));
         Ok(CompiledDraw {
             clears: vec![vk::ClearValue::default(); targets.len()],
             render_pass,
@@ -225,6 +234,7 @@ impl Compiler<'_> {
             pipeline,
             set,
             corners: (draw.geometry.range)(self.scene, &self.plan.view, step.pass),
+            numbers: (draw.geometry.numbers)(self.scene, step.pass),
         })
     }
 
@@ -289,6 +299,6 @@ impl Compiler<'_> {
     }
 
     fn made(&self, resource: Resource) -> Option<&DeviceObject> {
-        self.own.get(&resource).or_else(|| self.resident.made(resource, self.plan.distance))
+        self.own.get(&resource).or_else(|| self.resident.of_plan(self.plan, resource))
     }
 }

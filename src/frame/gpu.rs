@@ -240,8 +240,12 @@ impl GpuFrame {
         if objects.pipeline.layout.push_constants > 0 {
             commands.push(&objects.pipeline.layout, bytemuck::bytes_of(&push));
         }
-        if let Some(vertices) = self.compiled.own.get(&draw.geometry.vertices).and_then(DeviceObject::buffer) {
+        let own = self.compiled.own.get(&draw.vertices).and_then(DeviceObject::buffer);
+        if let Some(vertices) = own.or_else(|| self.compiled.vertices.get(&draw.vertices)) {
             commands.vertices(vertices);
+            if let Some(offset) = objects.numbers {
+                commands.numbers(vertices, offset);
+            }
         }
         if let Some(pool) = statistics {
             commands.begin_query(pool, i as u32);
@@ -253,8 +257,11 @@ impl GpuFrame {
         if let Some((buffer, at)) = conditional {
             commands.begin_conditional(buffer, 4 * u64::from(at));
         }
-        if !ended {
-            commands.draw(objects.corners.start, objects.corners.len() as u32);
+        let (first, count) = (objects.corners.start, objects.corners.len() as u32);
+        match objects.numbers {
+            _ if ended => {}
+            Some(_) => commands.draw_numbered(first, count),
+            None => commands.draw(first, count),
         }
         if conditional.is_some() {
             commands.end_conditional();

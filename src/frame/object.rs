@@ -89,11 +89,15 @@ fn buffer(device: &Arc<Device>, resource: Resource, size: u64, place: Place) -> 
     use vk::BufferUsageFlags as Flags;
     let usage = match resource.of.kind {
         ResourceKind::Vertices(_) => Flags::VERTEX_BUFFER,
+        ResourceKind::Polygons(_) if place == Place::Upload => Flags::VERTEX_BUFFER | Flags::INDEX_BUFFER,
+        ResourceKind::Polygons(_) => {
+            Flags::VERTEX_BUFFER | Flags::INDEX_BUFFER | Flags::STORAGE_BUFFER | Flags::TRANSFER_SRC
+        }
         ResourceKind::Uniform(_) => Flags::UNIFORM_BUFFER,
         ResourceKind::Staging(_) => Flags::TRANSFER_SRC | Flags::TRANSFER_DST,
         _ => Flags::STORAGE_BUFFER | Flags::TRANSFER_SRC,
     };
-    Buffer::new(device, BufferInfo { name: resource.name().to_owned(), size, usage, place })
+    Buffer::new(device, BufferInfo { name: resource.numbered(), size, usage, place })
 }
 
 fn image(device: &Arc<Device>, resource: Resource, texture: &Texture, facts: &Facts) -> Result<Image> {

@@ -55,9 +55,13 @@ impl Resident {
         Self { device: device.clone(), kept: Vec::new(), pipelines: Pipelines::new(device), table: None }
     }
 
-    /// What a step means by a resource, where distances are made for `lookup`.
-    pub(super) fn made(&self, resource: Resource, lookup: Option<Lookup>) -> Option<&DeviceObject> {
-        self.kept(Asset::of(resource, lookup)).map(|kept| &kept.made)
+    /// What a plan's steps mean by a resource.
+    pub(super) fn of_plan(&self, plan: &Plan, resource: Resource) -> Option<&DeviceObject> {
+        self.kept(plan.asset(resource)).map(|kept| &kept.made)
+    }
+
+    fn made(&self, resource: Resource, lookup: Option<Lookup>) -> Option<&DeviceObject> {
+        self.kept(Asset::of(resource, lookup, None)).map(|kept| &kept.made)
     }
 
     fn kept(&self, asset: Asset) -> Option<&KeptAsset> {
@@ -91,6 +95,15 @@ impl Resident {
         image.map(|image| upload::read_sampled(&self.device, image)).transpose()
     }
 
+    /// The vertices and triangles of a shell as the device has them, by its number in the plan's scene; none where they were not built there.
+    ///
+    /// # Errors
+    /// What the driver reports.
+    pub fn read_shell(&self, plan: &Plan, number: u16) -> Result<Option<Vec<u8>>> {
+        let made = self.of_plan(plan, resource::SHELL_POLYGONS.at(number)).and_then(DeviceObject::buffer);
+        made.map(|buffer| upload::read_buffer(&self.device, buffer)).transpose()
+    }
+
     /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
     pub fn table(&mut self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
         let asked = scene.settings.sampling.preintegrates();
@@ -106,13 +119,19 @@ impl Resident {
     /// Forgets what depends on the transfer function: the next plan's scene may have another one.
     pub fn forget_transfer(&mut self) {
         self.table = None;
-        self.kept.retain(|kept| kept.asset.resource.of.life == Life::Volume);
+        self.kept.retain(|kept| matches!(kept.asset.resource.of.life, Life::Volume | Life::Shell));
     }
 
     /// Forgets the scene; pipelines stay, which the next one may draw with too.
     pub fn forget_scene(&mut self) {
         self.table = None;
         self.kept.clear();
+    }
+
+    /// Forgets shells that the scene has no more; those that are left out for now stay.
+    fn keep_shells(&mut self, scene: &Scene) {
+        let has = |level: f64| scene.shells.as_ref().is_some_and(|shells| shells.has(level));
+        self.kept.retain(|kept| kept.asset.level.is_none_or(has));
     }
 
     /// Forgets what was made for other views than these.
@@ -124,7 +143,7 @@ impl Resident {
     /// Bytes of each resource that the plan's frame reads.
     pub fn bytes(&self, plan: &Plan) -> Vec<(Resource, u64)> {
         let read = crate::plan::builds::reads(plan.frame());
-        read.into_iter().filter_map(|r| Some((r, self.made(r, plan.distance)?.bytes()))).collect()
+        read.into_iter().filter_map(|r| Some((r, self.of_plan(plan, r)?.bytes()))).collect()
     }
 
     /// Milliseconds that building what the plan looks up took, and the part of it that every new view takes; none where
@@ -147,6 +166,7 @@ impl Resident {
     /// memory is short.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         self.pipelines.prepare(&plan.steps)?;
+        self.keep_shells(scene);
         plan.builds.iter().filter(|build| !build.of_frame()).try_for_each(|build| {
             let facts = Facts { lookup: build.asset.lookup.or(plan.distance), ..plan.facts(scene) };
             self.run(&facts, build, &plan.steps[build.steps.clone()])
@@ -179,7 +199,7 @@ impl Resident {
         let begin = ProcessTime::now();
         let bytes: Cow<[u8]> = match (&resource.of.origin, recipe(resource).and_then(|recipe| recipe.host)) {
             (Origin::Host(bytes), _) => bytes(&facts),
-            (_, Some(build)) => build(&facts).into(),
+            (_, Some(build)) => build(&facts, resource.index).into(),
             _ => {
                 let problem = format!("nobody makes {}", resource.name());
                 return Err(Error::device(&self.device.info.name, problem, "please report this"));
@@ -201,7 +221,7 @@ impl Resident {
         }
         let kept = &self.kept;
         let given = |resource: Resource| -> Option<Bindable> {
-            let of = Asset::of(resource, facts.lookup);
+            let of = Asset::of(resource, facts.lookup, facts.scene.shells.as_deref());
             let passing = passing.iter().find(|(of, _)| *of == resource).map(|(_, made)| made);
             let before = || kept.iter().find(|kept| kept.asset == of).map(|kept| &kept.made);
             let found = if of == asset { Some(&made) } else { passing.or_else(before) };

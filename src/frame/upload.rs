@@ -86,6 +86,29 @@ pub fn read_sampled(device: &Arc<Device>, image: &Image) -> Result<Vec<u8>> {
     Ok(texels)
 }
 
+/// All bytes of a buffer.
+///
+/// # Errors
+/// When memory is short.
+pub fn read_buffer(device: &Arc<Device>, buffer: &Buffer) -> Result<Vec<u8>> {
+    if buffer.info.place != Place::Device {
+        return buffer.read();
+    }
+    let copy = Buffer::new(
+        device,
+        BufferInfo {
+            name: format!("{} read back", buffer.info.name),
+            size: buffer.bytes(),
+            usage: vk::BufferUsageFlags::TRANSFER_DST,
+            place: Place::Readback,
+        },
+    )?;
+    let mut commands = Commands::begin(device, &device.graphics, "read back")?;
+    commands.copy_buffer(buffer, 0, &copy, 0, buffer.bytes());
+    finish(device, commands)?;
+    copy.read()
+}
+
 /// Texels of an accumulation format as f32.
 pub fn decode_rgba(texels: &[u8], format: vk::Format) -> Vec<[f32; 4]> {
     let four = |texel: &[u8], decode: &dyn Fn(&[u8]) -> f32| -> [f32; 4] {

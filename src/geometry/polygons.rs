@@ -40,6 +40,7 @@ const POLYGONS: Geometry = Geometry {
     vertices: resource::POLYGON_CORNERS,
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
+    numbers: |_, _| None,
     hits: |_, _, _| Hits { fragments: 0, undecided: false },
 };
 

@@ -12,5 +12,6 @@ pub static SCREEN: Geometry = Geometry {
     vertices: resource::SCREEN_CORNERS,
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..3,
+    numbers: |_, _| None,
     hits: |_, _, _| Hits { fragments: 1, undecided: false },
 };

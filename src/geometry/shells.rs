@@ -1,7 +1,5 @@
 //! Shells, and the polygons that may hide them [Heidrich95 §4].
 
-use std::ops::Range;
-
 use ash::vk;
 
 use super::polygons::OPAQUE_POLYGONS;
@@ -15,9 +13,10 @@ use crate::scene::view::View;
 pub static SHELLS: Geometry = Geometry {
     name: "shells",
     vertex: "shells.vert",
-    vertices: resource::SHELL_CORNERS,
+    vertices: resource::SHELL_POLYGONS,
     corner: vk::Format::R32G32B32_SFLOAT,
-    range: |scene, _, pass| corners(scene, pass as usize),
+    range: |scene, _, pass| 0..3 * count(scene, pass)[1],
+    numbers: |scene, pass| Some(size_of::<[f32; 3]>() as u64 * u64::from(count(scene, pass)[0])),
     hits,
 };
 
@@ -25,14 +24,10 @@ pub static SHELLS: Geometry = Geometry {
 pub static SHELL_SURFACES: Geometry =
     Geometry { name: "surfaces among shells", vertex: "shells.vert", ..OPAQUE_POLYGONS };
 
-fn corners(scene: &Scene, number: usize) -> Range<u32> {
-    let Some(shells) = &scene.shells else { return 0..0 };
-    let before = shells.triangles_before(&scene.field);
-    let corner = |triangles: u64| 3 * triangles as u32;
-    match before.get(number..number + 2) {
-        Some(ends) => corner(ends[0])..corner(ends[1]),
-        None => 0..0,
-    }
+/// Vertices and triangles of a shell.
+fn count(scene: &Scene, number: u32) -> [u32; 2] {
+    let shell = scene.shells.as_ref().and_then(|shells| shells.list.get(number as usize));
+    shell.map_or([0; 2], |shell| shell.count(&scene.field))
 }
 
 /// One fragment for each triangle of any shell that the ray through the pixel's centre meets.

@@ -15,6 +15,7 @@ pub static SLICES_CUT: Geometry = Geometry {
     vertices: resource::SLICE_NUMBERS,
     corner: vk::Format::R32G32_SFLOAT,
     range: |_, view, pass| view.slices.as_ref().map_or(0..0, |slices| slices.numbers_in(pass)),
+    numbers: |_, _| None,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };
 
@@ -29,5 +30,6 @@ pub static SLICES: Geometry = Geometry {
         let in_pass = |slices: &Arc<Slices>| view.slice_polygons(scene).in_pass(slices, pass);
         view.slices.as_ref().map_or(0..0, in_pass)
     },
+    numbers: |_, _| None,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };

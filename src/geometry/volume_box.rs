@@ -28,6 +28,7 @@ const BOX: Geometry = Geometry {
     vertices: resource::BOX,
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
+    numbers: |_, _| None,
     hits,
 };
 

@@ -40,6 +40,7 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
             "use --gradient-texture rgba8, or --gradients on-the-fly",
         ));
     }
+    check_shells(info, scene, plan)?;
     let limit = info.max_image_3d;
     let fits = |volume: &Volume, remedy: &str| {
         let problem = || format!("has {:?} voxels, {} allows at most {limit} a side", volume.dims, info.name);
@@ -61,11 +62,31 @@ pub fn check_device(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()>
     Ok(())
 }
 
-/// Whether there is memory for the pictures.
+/// Whether the shells of a plan fit, all of which are there at once.
+fn check_shells(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()> {
+    if plan.method.takes_samples() {
+        return Ok(());
+    }
+    let (needed, there) = (resource::shell_bytes(scene).into_iter().sum::<u64>(), info.memory_bytes);
+    let vertices = scene.shells.iter().flat_map(|shells| &shells.list).map(|shell| shell.count(&scene.field)[0]);
+    let most = vertices.max().unwrap_or(0);
+    let problem = match () {
+        () if needed > there => {
+            format!("has shells that take {} MiB of device memory, {} has {}", needed >> 20, info.name, there >> 20)
+        }
+        () if most.saturating_sub(1) > info.max_vertex_number => {
+            format!("has a shell of {most} vertices, {} numbers at most {}", info.name, info.max_vertex_number)
+        }
+        () => return Ok(()),
+    };
+    Err(Error::device(&scene.field.volume.name, problem, "use fewer shells, or levels of smaller ones"))
+}
+
+/// Whether there is memory for the pictures, and for what the host builds.
 ///
 /// # Errors
 /// When there is not.
-pub fn check_host(scene: &Scene) -> Result<()> {
+pub fn check_host(scene: &Scene, plan: &Plan) -> Result<()> {
     let there = |needed: u64| usize::try_from(needed).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
     if scene.has_gradient_texture() && !there(resource::gradient_bytes(scene)) {
         let problem = format!(
@@ -73,6 +94,11 @@ pub fn check_host(scene: &Scene) -> Result<()> {
             resource::gradient_bytes(scene) >> 20
         );
         return Err(Error::input(&scene.field.volume.name, problem, "use --gradients on-the-fly"));
+    }
+    let shells = if plan.method.takes_samples() { 0 } else { resource::shell_bytes(scene).into_iter().sum() };
+    if !there(shells) {
+        let problem = format!("has shells that take {} MiB of memory, which are not available", shells >> 20);
+        return Err(Error::input(&scene.field.volume.name, problem, "use fewer shells, or levels of smaller ones"));
     }
     let needed = HOST_BYTES * pixels(scene);
     if there(needed) {

@@ -33,6 +33,6 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
 /// How many polygons a frame of shells draws.
 pub(super) fn polygons_of_shells(scene: &Scene, plan: &Plan) -> Option<String> {
     let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples())?;
-    let triangles = shells.triangles_before(&scene.field).pop().unwrap_or(0);
+    let triangles = shells.triangles(&scene.field);
     Some(format!("{} shells of {triangles} triangles", shells.list.len()))
 }

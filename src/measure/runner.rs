@@ -166,7 +166,7 @@ impl<'a> Runner<'a> {
             limits::check_device(&checked.device.info, &scene, &plan)?;
             plan
         };
-        limits::check_host(&scene)?;
+        limits::check_host(&scene, &plan)?;
         Ok(Planned { scene, plan, auto })
     }
 

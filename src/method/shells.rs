@@ -115,7 +115,10 @@ fn draw(context: &Context, steps: &mut Steps) {
         ShellOrder::Dimmest => false,
     };
     let numbers = |i: u32| if brightest_first { context.passes - 1 - i } else { i };
-    for number in (0..context.passes).map(numbers) {
+    let field = &context.scene.field;
+    let shells = context.scene.shells.as_ref().map_or(&[][..], |shells| &shells.list);
+    let has_polygons = |number: &u32| shells.get(*number as usize).is_some_and(|shell| shell.count(field)[1] > 0);
+    for number in (0..context.passes).map(numbers).filter(has_polygons) {
         steps.extend((context.opaque && greatest).then(|| shells::surfaces(context, Some(number))));
         steps.push(shells::shell(context, number));
     }

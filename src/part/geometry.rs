@@ -19,8 +19,10 @@ pub struct Geometry {
     pub vertices: Resource,
     /// The format of a corner, which is all that the vertex shader reads.
     pub corner: vk::Format,
-    /// Which corners of the buffer are drawn in a main pass, three a triangle.
+    /// Which corners of the buffer are drawn in a main pass, three a triangle; of the list of their numbers, where there is one.
     pub range: fn(&Scene, &View, u32) -> Range<u32>,
+    /// Where in the buffer the list of the numbers of corners begins, bytes, in a main pass; none where triangles share no corners.
+    pub numbers: fn(&Scene, u32) -> Option<u64>,
     /// The fragments of a pixel, in f64.
     pub hits: fn(&Scene, &View, Sample) -> Hits,
 }

@@ -200,6 +200,8 @@ pub const TILE: u32 = 8;
 #[derive(Clone, Debug)]
 pub struct Draw {
     pub geometry: &'static Geometry,
+    /// The buffer of its corners, of several that the geometry has.
+    pub vertices: Resource,
     /// The depths that 0 and 1 are taken to; where they are one, all of it is drawn there, to the bit.
     pub depths: [f32; 2],
     /// The least stored depth with which a fragment takes part, where the step is culled.
@@ -236,6 +238,7 @@ impl Draw {
     pub fn plain(geometry: &'static Geometry, file: &'static str, twin: TwinPass) -> Self {
         Self {
             geometry,
+            vertices: geometry.vertices,
             depths: [1.0; 2],
             least: 0.0,
             bound: 1.0,

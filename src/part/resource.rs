@@ -51,6 +51,8 @@ pub type Bytes = fn(&Facts, u16) -> u64;
 /// What a resource is on a device.
 pub enum ResourceKind {
     Vertices(Bytes),
+    /// Vertices that triangles share, and behind them the numbers of three for each triangle.
+    Polygons(Bytes),
     Uniform(Bytes),
     Storage(Bytes),
     /// Copies go through it.
@@ -78,6 +80,8 @@ pub struct Texture {
 pub enum Life {
     /// As long as the volume.
     Volume,
+    /// As long as the volume, and the shell whose number is the index.
+    Shell,
     /// As long as volume and transfer function.
     Transfer,
     /// As long as these and the view; where it was made for all views, as [`Life::Transfer`].
@@ -128,7 +132,15 @@ impl Resource {
 
     /// The name, of images that frames draw into with their index.
     pub fn label(self) -> String {
-        if self.is_target() { format!("{self:?}") } else { self.name().to_owned() }
+        if self.is_target() { format!("{self:?}") } else { self.numbered() }
+    }
+
+    /// The name, of what belongs to one of several shells with its number.
+    pub fn numbered(self) -> String {
+        match self.of.life {
+            Life::Shell => format!("{} #{}", self.of.name, self.index),
+            _ => self.of.name.to_owned(),
+        }
     }
 
     /// Whether every frame writes it anew, at the size of the picture.
@@ -148,6 +160,7 @@ impl Resource {
     pub fn bytes(self, facts: &Facts) -> u64 {
         match &self.of.kind {
             ResourceKind::Vertices(bytes)
+            | ResourceKind::Polygons(bytes)
             | ResourceKind::Uniform(bytes)
             | ResourceKind::Storage(bytes)
             | ResourceKind::Staging(bytes) => bytes(facts, self.index),

@@ -27,6 +27,7 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
         accesses,
         Work::Draw(Draw {
             geometry: &BOX_FRONT,
+            vertices: BOX_FRONT.vertices,
             depths: [ALIVE; 2],
             least: 0.0,
             bound: ALIVE,

@@ -28,12 +28,12 @@ fn range(context: &Context, number: u32) -> [f32; 2] {
 pub fn shell(context: &Context, number: u32) -> Step {
     let settings = &context.scene.settings.shells;
     let mut accesses = vec![
-        Usage::Vertices.of(resource::SHELL_CORNERS),
+        Usage::Vertices.of(resource::SHELL_POLYGONS.at(number as u16)),
         Usage::Placing.of(resource::SHELL_PLACEMENT),
         Usage::Sampled.of(resource::SHELL_CUE),
     ];
     let mut draw = Draw::plain(&SHELLS, "shells.frag", twin::shells::shell);
-    draw.depths = range(context, number);
+    (draw.vertices, draw.depths) = (resource::SHELL_POLYGONS.at(number as u16), range(context, number));
     match settings.mode {
         Some(ShellMode::Max) => {
             accesses.push(Usage::Color.of(resource::ACCUMULATED));

@@ -8,26 +8,47 @@ use crate::part::{Group, Step};
 use crate::pass::build::{self, recipe};
 use crate::resource;
 use crate::scene::settings::Distance;
+use crate::scene::shells::Shells;
 use crate::structure::Lookup;
 
 /// A resource and what it was made for: frames with equal assets share it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Asset {
     pub resource: Resource,
     /// What of the look-ups it depends on; none for what serves all of them.
     pub lookup: Option<Lookup>,
+    /// The level of the shell it belongs to, in the volume's own unit; none for what belongs to none.
+    pub level: Option<f64>,
+}
+
+impl PartialEq for Asset {
+    fn eq(&self, other: &Self) -> bool {
+        let same = match self.level {
+            // Shells have other numbers where there are more of them, or fewer.
+            Some(_) => std::ptr::eq(self.resource.of, other.resource.of),
+            None => self.resource == other.resource,
+        };
+        same && self.level == other.level && self.lookup == other.lookup
+    }
 }
 
 impl Asset {
-    /// The asset that a step means by a resource, where distances are made for `lookup`.
-    pub fn of(resource: Resource, lookup: Option<Lookup>) -> Self {
+    /// The asset that a step means by a resource, where distances are made for `lookup`, and shells are these.
+    pub fn of(resource: Resource, lookup: Option<Lookup>, shells: Option<&Shells>) -> Self {
+        let serves_all = Self { resource, lookup: None, level: None };
         let cells = lookup.map(|lookup| Lookup { distance: Distance::Omni, view: None, ..lookup });
         match (resource.of.life, &resource.of.origin) {
             // It is the texture that `nn-omni` looks up.
-            _ if resource == resource::OMNI_DISTANCE => Self { resource: resource::NEAREST_DISTANCE, lookup: cells },
-            (Life::View, _) => Self { resource, lookup },
-            (Life::Transfer, Origin::Built) => Self { resource, lookup: cells },
-            _ => Self { resource, lookup: None },
+            _ if resource == resource::OMNI_DISTANCE => {
+                Self { resource: resource::NEAREST_DISTANCE, lookup: cells, ..serves_all }
+            }
+            (Life::View, _) => Self { lookup, ..serves_all },
+            (Life::Transfer, Origin::Built) => Self { lookup: cells, ..serves_all },
+            (Life::Shell, _) => {
+                let shell = shells.and_then(|shells| shells.list.get(usize::from(resource.index)));
+                Self { level: shell.map(|shell| shell.level), ..serves_all }
+            }
+            _ => serves_all,
         }
     }
 }
@@ -82,7 +103,7 @@ impl Builds {
     }
 
     fn need(&mut self, facts: &Facts, on_host: bool, resource: Resource) {
-        let asset = Asset::of(resource, facts.lookup);
+        let asset = Asset::of(resource, facts.lookup, facts.scene.shells.as_deref());
         if self.list.iter().any(|build| build.asset == asset) {
             return;
         }

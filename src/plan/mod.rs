@@ -23,7 +23,7 @@ use crate::scene::view::View;
 use crate::scene::{Region, Scene, slices};
 use crate::structure::Lookup;
 use crate::twin::section::most_sections;
-use builds::{Build, Builds};
+use builds::{Asset, Build, Builds};
 
 /// The frame of one scene, ready to be run.
 #[derive(Clone, Debug)]
@@ -62,6 +62,12 @@ impl Plan {
     /// The steps of the frame, without what is there before.
     pub fn frame(&self) -> &[Step] {
         &self.steps[self.builds.last().map_or(0, |build| build.steps.end)..]
+    }
+
+    /// The asset that a step means by a resource.
+    pub fn asset(&self, resource: Resource) -> Asset {
+        let built = self.builds.iter().find(|build| build.asset.resource == resource);
+        built.map_or_else(|| Asset::of(resource, self.distance, None), |build| build.asset)
     }
 
     /// What sizes and contents of the plan's resources follow from.
@@ -183,7 +189,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
         None => view,
     };
     if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {
-        shells.build(&scene.field)?;
+        shells.count(&scene.field)?;
     }
     let passes = passes(scene, &view, method);
     check_slices(scene, &view)?;
@@ -228,7 +234,7 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
     }
     if method.traversal == Traversal::Shells {
         let shells =
-            scene.shells.as_ref().filter(|shells| view.region.pixels() > 0 && shells.has_polygons(&scene.field));
+            scene.shells.as_ref().filter(|shells| view.region.pixels() > 0 && shells.triangles(&scene.field) > 0);
         return shells.map_or(0, |shells| shells.list.len() as u32);
     }
     let sampling = &scene.settings.sampling;

@@ -28,7 +28,10 @@ pub use layers::{
 };
 pub use look::{AXIS, FEW_GREY_TRANSFER, FEW_TRANSFER, GREY_TRANSFER, HOLES, PREINTEGRATED, STACKS, TRANSFER, VOLUME};
 pub use refraction::{BACKDROP, REFRACTIVE_INDEX};
-pub use shells::{SHELL_CORNERS, SHELL_CUE, SHELL_DEPTH, SHELL_LEVELS, SHELL_PLACEMENT};
+pub use shells::{
+    SHELL_CASES, SHELL_CUE, SHELL_DEPTH, SHELL_EDGES, SHELL_LEVELS, SHELL_PLACEMENT, SHELL_POLYGONS, SHELL_SIDES,
+    SHELL_SUMS, SUMMED, largest_shell_buffer, lattice_words, shell_bytes, sum_counts,
+};
 pub use structure::{
     BLOCK_TABLE, BOXES_2, BOXES_4, BUNDLE, CELL_RANGE, DISTANCE_BYTES, INTERESTING, NEAREST_DISTANCE, OMNI_DISTANCE,
     SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
@@ -38,7 +41,7 @@ pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 64] = [
+pub const RESOURCES: [Resource; 68] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -62,7 +65,7 @@ pub const RESOURCES: [Resource; 64] = [
     LAYER_COLOR,
     PEEL_DEPTH,
     CLIP_WINDING,
-    SHELL_CORNERS,
+    SHELL_POLYGONS,
     SHELL_PLACEMENT,
     SHELL_LEVELS,
     SHELL_CUE,
@@ -103,6 +106,10 @@ pub const RESOURCES: [Resource; 64] = [
     BOXES_4,
     OMNI_DISTANCE,
     BUNDLE,
+    SHELL_CASES,
+    SHELL_SIDES,
+    SHELL_EDGES,
+    SHELL_SUMS,
 ];
 
 /// The place of a resource in lists.

@@ -1,9 +1,10 @@
-//! Nested iso-surfaces as polygons [Heidrich95 §2], and what they are drawn with.
+//! Nested iso-surfaces as polygons [Heidrich95 §2], what they are made from, and what they are drawn with.
 
 use ash::vk;
 
-use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
-use crate::scene::shells::{Shell, ShellDepth, Shells};
+use crate::part::resource::{Bytes, Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
+use crate::scene::shells::{CASES, Faces, Lattice, Shell, ShellDepth};
+use crate::scene::{Field, Scene};
 use crate::shared;
 
 /// The shells of a scene.
@@ -11,22 +12,112 @@ fn shells<'a>(facts: &Facts<'a>) -> &'a [Shell] {
     facts.scene.shells.as_ref().map_or(&[], |shells| &shells.list)
 }
 
-/// Corners of all shells.
-pub const SHELL_CORNERS: Resource = Resource::new(&SHELL_CORNERS_INFO);
-static SHELL_CORNERS_INFO: ResourceInfo = ResourceInfo::of_frame(
-    "shell_corners",
-    "corners of triangles in volume space, shell by shell, the dimmest first",
-    ResourceKind::Vertices(|facts, _| {
-        let before = |shells: &Shells| shells.triangles_before(&facts.scene.field).pop().unwrap_or(0);
-        facts.scene.shells.as_deref().map_or(0, before) * size_of::<[[f32; 3]; 3]>() as u64
+/// The polygons of a shell, whose number from the dimmest on is the index.
+pub const SHELL_POLYGONS: Resource = Resource::new(&SHELL_POLYGONS_INFO);
+static SHELL_POLYGONS_INFO: ResourceInfo = ResourceInfo {
+    name: "shell_polygons",
+    holds: "vertices in volume space, then of each triangle the numbers of its three",
+    kind: ResourceKind::Polygons(|facts, number| {
+        let shell = shells(facts).get(usize::from(number));
+        shell.map_or(0, |shell| polygon_bytes(shell.count(&facts.scene.field)))
     }),
-    |facts| {
-        let meshes = shells(facts).iter().map(|shell| shell.polygons(&facts.scene.field));
-        let corners =
-            meshes.flat_map(|mesh| mesh.triangles.iter().flatten().map(|corner| mesh.corners[*corner as usize]));
-        bytemuck::cast_slice(&corners.collect::<Vec<[f32; 3]>>()).to_vec().into()
-    },
+    life: Life::Shell,
+    origin: Origin::Built,
+};
+
+/// Bytes of so many vertices and triangles.
+fn polygon_bytes([vertices, triangles]: [u32; 2]) -> u64 {
+    size_of::<[f32; 3]>() as u64 * u64::from(vertices) + size_of::<[u32; 3]>() as u64 * u64::from(triangles)
+}
+
+/// Bytes of the polygons of each of a scene's shells.
+pub fn shell_bytes(scene: &Scene) -> Vec<u64> {
+    let shells = scene.shells.iter().flat_map(|shells| &shells.list);
+    shells.map(|shell| polygon_bytes(shell.count(&scene.field))).collect()
+}
+
+/// Bytes of the largest buffer that building a scene's shells on a device takes.
+pub fn largest_shell_buffer(scene: &Scene) -> u64 {
+    let polygons = shell_bytes(scene).into_iter().max().unwrap_or(0);
+    polygons.max(edge_bytes(&scene.field)).max(sum_bytes(&scene.field))
+}
+
+/// Words of 32 nodes of the lattice that shells lie in.
+pub fn lattice_words(field: &Field) -> usize {
+    let [x, y, z] = Lattice::new(field, Faces::Closed).nodes();
+    x.div_ceil(u32::BITS as usize) * y * z
+}
+
+/// Entries that one invocation sums up.
+pub const SUMMED: usize = 64;
+
+/// The numbers of entries of `shell_sums` over each other: those of each word, and sums of 64 until there are no more than that.
+pub fn sum_counts(field: &Field) -> Vec<usize> {
+    let mut counts = vec![lattice_words(field)];
+    while let Some(count) = counts.last().filter(|count| **count > SUMMED) {
+        counts.push(count.div_ceil(SUMMED));
+    }
+    counts
+}
+
+/// A buffer that a build needs meanwhile.
+const fn passing(name: &'static str, holds: &'static str, bytes: Bytes) -> ResourceInfo {
+    let kind = ResourceKind::Storage(bytes);
+    ResourceInfo { name, holds, kind, life: Life::Volume, origin: Origin::Passing }
+}
+
+/// Which nodes of the lattice are not below the level.
+pub const SHELL_SIDES: Resource = Resource::new(&SHELL_SIDES_INFO);
+static SHELL_SIDES_INFO: ResourceInfo =
+    passing("shell_sides", "a bit a node of the lattice: whether its value is not below the level", |facts, _| {
+        (size_of::<u32>() * lattice_words(&facts.scene.field)) as u64
+    });
+
+fn edge_bytes(field: &Field) -> u64 {
+    (size_of::<[u32; 3]>() * lattice_words(field)) as u64
+}
+
+/// Which edges of the lattice have a vertex.
+pub const SHELL_EDGES: Resource = Resource::new(&SHELL_EDGES_INFO);
+static SHELL_EDGES_INFO: ResourceInfo = passing(
+    "shell_edges",
+    "a bit a node for each axis: whether the edge that goes up there has a vertex",
+    |facts, _| edge_bytes(&facts.scene.field),
 );
+
+fn sum_bytes(field: &Field) -> u64 {
+    (size_of::<[u32; 2]>() * (sum_counts(field).into_iter().sum::<usize>() + 1)) as u64
+}
+
+/// How many vertices and triangles come before.
+pub const SHELL_SUMS: Resource = Resource::new(&SHELL_SUMS_INFO);
+static SHELL_SUMS_INFO: ResourceInfo = passing(
+    "shell_sums",
+    "vertices and triangles before a word of nodes among 64 words, those before 64 words among 64 times as many, and so on; in the end all",
+    |facts, _| sum_bytes(&facts.scene.field),
+);
+
+/// The triangles of each case.
+pub const SHELL_CASES: Resource = Resource::new(&SHELL_CASES_INFO);
+static SHELL_CASES_INFO: ResourceInfo = ResourceInfo {
+    name: "shell_cases",
+    holds: "of each case of a cell four bits for each edge of its triangles, and in the last four their number",
+    kind: ResourceKind::Storage(|_, _| size_of::<[u64; 256]>() as u64),
+    life: Life::Volume,
+    origin: Origin::Host(|_| {
+        let packed: Vec<u64> = CASES.iter().map(|case| packed(case)).collect();
+        bytemuck::cast_slice(&packed).to_vec().into()
+    }),
+};
+
+/// Bits that an edge of a cell takes.
+const EDGE_BITS: usize = 4;
+
+fn packed(triangles: &[[u8; 3]]) -> u64 {
+    let edges = triangles.iter().flatten().enumerate();
+    let bits = edges.fold(0, |bits, (i, edge)| bits | u64::from(*edge) << (EDGE_BITS * i));
+    bits | (triangles.len() as u64) << (u64::BITS as usize - EDGE_BITS)
+}
 
 /// Emissions of shells.
 pub const SHELL_LEVELS: Resource = Resource::new(&SHELL_LEVELS_INFO);

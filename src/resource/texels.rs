@@ -98,6 +98,22 @@ impl<'a> Texels<'a> {
         }
     }
 
+    /// The level, in x, among the texture's values: voxels whose x is not below it are those whose texels are not below this. Of codes it
+    /// lies in the middle between two, so that it does not matter how a device rounds them.
+    pub fn threshold(&self, field: &Field, level: f32) -> f32 {
+        if matches!(self.values, Values::Float(_)) {
+            return level;
+        }
+        let codes = i32::from(i16::MIN)..=i32::from(u16::MAX);
+        let not_below = codes.clone().collect::<Vec<_>>().partition_point(|value| field.x(f64::from(*value)) < level);
+        let between = f64::from(*codes.start()) + not_below as f64 - 0.5;
+        let [low, high] = field.range;
+        match field.has_empty_range() {
+            true => level,
+            false => (self.scale * ((between - low) / (high - low)) + self.offset) as f32,
+        }
+    }
+
     /// What shows of a scene, among the texture's values.
     pub fn shown(&self, scene: &Scene) -> Shown {
         Shown::of(scene, TextureMap { scale: self.scale, offset: self.offset })

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 /// `Slice` of `glsl/shared/slice.glsl`, where its members are explained.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Slice {
     pub first: u32,
     pub end: u32,
@@ -18,4 +18,10 @@ pub struct Slice {
     pub weight: u32,
     pub reach: u32,
     pub octant: u32,
+    pub corners: u32,
+    pub level: f32,
+    pub threshold: f32,
+    pub voxel_x: f32,
+    pub voxel_y: f32,
+    pub voxel_z: f32,
 }

@@ -32,7 +32,8 @@ pub struct BufferInfo {
     pub place: Place,
 }
 
-/// A buffer with its memory. `Upload` and `Readback` memory is mapped for good and coherent.
+/// A buffer with its memory. `Upload` and `Readback` memory is mapped for good and coherent. Copies are the same buffer.
+#[derive(Clone)]
 pub struct Buffer {
     pub info: BufferInfo,
     pub(super) inner: Arc<BufferInner>,

@@ -208,6 +208,19 @@ impl Commands {
         unsafe { self.device.raw.cmd_bind_vertex_buffers(self.raw, 0, &[buffer.handle()], &[0]) };
     }
 
+    /// The numbers of vertices that [`Commands::draw_numbered`] draws, from the byte `offset` of the buffer on.
+    pub fn numbers(&mut self, buffer: &Buffer, offset: u64) {
+        self.keep(&buffer.inner);
+        // SAFETY: as in `begin_render_pass`.
+        unsafe { self.device.raw.cmd_bind_index_buffer(self.raw, buffer.handle(), offset, vk::IndexType::UINT32) };
+    }
+
+    /// Draws vertices by so many numbers.
+    pub fn draw_numbered(&mut self, first: u32, count: u32) {
+        // SAFETY: as in `begin_render_pass`.
+        unsafe { self.device.raw.cmd_draw_indexed(self.raw, count, 1, first, 0, 0) };
+    }
+
     pub fn draw(&mut self, first: u32, count: u32) {
         // SAFETY: as in `begin_render_pass`.
         unsafe { self.device.raw.cmd_draw(self.raw, count, 1, first, 0) };

@@ -21,6 +21,8 @@ pub(super) fn wanted_features(instance: &ash::Instance, info: &DeviceInfo, robus
     vk::PhysicalDeviceFeatures {
         robust_buffer_access: if robust { has.robust_buffer_access } else { vk::FALSE },
         depth_bounds: has.depth_bounds,
+        // Numbers of vertices beyond 2^24.
+        full_draw_index_uint32: has.full_draw_index_uint32,
         occlusion_query_precise: has.occlusion_query_precise,
         pipeline_statistics_query: has.pipeline_statistics_query,
         // Attachments that blend beside attachments that are replaced.

@@ -66,6 +66,8 @@ pub struct DeviceInfo {
     pub sub_pixel_bits: u32,
     /// Bytes.
     pub max_storage_buffer: u64,
+    /// The greatest number of a vertex that triangles share.
+    pub max_vertex_number: u32,
     /// Bytes of the device's own memory.
     pub memory_bytes: u64,
     /// Why this device cannot be used; `None` when it can.
@@ -159,6 +161,7 @@ fn describe(raw: &ash::Instance, index: usize, physical: vk::PhysicalDevice) -> 
         max_viewport: limits.max_viewport_dimensions,
         sub_pixel_bits: limits.sub_pixel_precision_bits,
         max_storage_buffer: limits.max_storage_buffer_range.into(),
+        max_vertex_number: limits.max_draw_indexed_index_value,
         memory_bytes: memory
             .memory_heaps_as_slice()
             .iter()

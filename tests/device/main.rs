@@ -5,6 +5,7 @@ mod data;
 mod formulas;
 mod frame;
 mod harness;
+mod marching_cubes;
 mod probe;
 mod shader;
 mod structure;
@@ -19,6 +20,7 @@ fn main() -> ExitCode {
             formulas::tests(),
             vulkan::tests(),
             structure::tests(),
+            marching_cubes::tests(),
             frame::tests(),
             probe::tests(),
             cli::tests(),

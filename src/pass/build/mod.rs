@@ -1,4 +1,4 @@
-//! Compute steps that build structures: which cells are interesting, how far it is to the nearest of them, and gradients.
+//! Compute steps that build structures: which cells are interesting, how far it is to the nearest of them, gradients, and shells.
 //!
 //! They are run before frames, once for what they depend on: the volume, the transfer function, the view. Each step is
 //! cut into slices, so that a large volume takes many short dispatches. [`RECIPES`] says which steps make what.
@@ -8,6 +8,7 @@ mod distance;
 mod gradients;
 mod interesting;
 mod range;
+mod shells;
 
 use bundle::{bundle, widen_2, widen_4};
 use distance::{directional, omni};
@@ -35,11 +36,11 @@ pub struct Recipe {
     /// The steps, by what sizes follow from and the resource's index.
     pub steps: fn(&Facts, u16) -> Vec<Step>,
     /// The bytes as the host makes them, where it has a form of its own.
-    pub host: Option<fn(&Facts) -> Vec<u8>>,
+    pub host: Option<fn(&Facts, u16) -> Vec<u8>>,
 }
 
 /// Every recipe.
-pub static RECIPES: [Recipe; 7] = [
+pub static RECIPES: [Recipe; 8] = [
     Recipe {
         makes: resource::CELL_RANGE,
         steps: |facts, side| vec![cell_range(&Grid::new(&facts.scene.field, side.into()))],
@@ -70,7 +71,7 @@ pub static RECIPES: [Recipe; 7] = [
                 }
             })
         },
-        host: Some(|facts| {
+        host: Some(|facts, _| {
             let texels = Texels::of(facts.scene);
             let shown = texels.shown(facts.scene);
             let build = |lookup| structure::build(&facts.scene.field, &texels.values, &shown, &lookup).bytes;
@@ -80,12 +81,13 @@ pub static RECIPES: [Recipe; 7] = [
     Recipe {
         makes: resource::GRADIENTS,
         steps: |facts, _| gradients(facts.scene),
-        host: Some(|facts| {
+        host: Some(|facts, _| {
             let (scene, texels) = (facts.scene, Texels::of(facts.scene));
             let operator = scene.settings.shading.gradient;
             structure::gradients::texels(&scene.field, &texels.values, operator, &GradientCoding::of(scene))
         }),
     },
+    Recipe { makes: resource::SHELL_POLYGONS, steps: shells::shell, host: Some(shells::polygons) },
 ];
 
 /// The recipe of a resource; none for what is not built.
@@ -99,7 +101,7 @@ fn of_lookup(facts: &Facts, steps: impl FnOnce(&Grid, &Lookup) -> Vec<Step>) -> 
 
 /// The host makes a resource, and its bytes are uploaded.
 pub fn host(resource: Resource, group: Group) -> Step {
-    Step::new(resource.name().to_owned(), group, 0, vec![Usage::Upload.of(resource)], Work::Host(resource))
+    Step::new(resource.numbered(), group, 0, vec![Usage::Upload.of(resource)], Work::Host(resource))
 }
 
 /// What a step of `count` invocations knows of the grid.

@@ -4,8 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
+use super::crossings::Crossings;
 use super::lattice::Faces;
-use super::polygons::polygons;
+use super::polygons::{crosses, polygons};
 use crate::error::{Error, Result};
 use crate::math::bvh::{Bounds, Hierarchy};
 use crate::scene::Field;
@@ -18,6 +19,8 @@ pub struct Shells {
     pub list: Vec<Shell>,
     /// Levels that no value reaches, in the volume's own unit.
     pub empty: Vec<f64>,
+    /// Levels that are left out for now, in the volume's own unit.
+    pub disabled: Vec<f64>,
     /// How many of the levels that were given are given again.
     pub repeated: usize,
 }
@@ -35,9 +38,10 @@ pub struct Shell {
     pub mesh: Arc<ShellMesh>,
 }
 
-/// The polygons of a level, closed at the faces of the volume, made when they are first asked for.
+/// The polygons of a level, closed at the faces of the volume, counted and made when they are first asked for.
 #[derive(Debug, Default)]
 pub struct ShellMesh {
+    count: OnceLock<[u32; 2]>,
     mesh: OnceLock<Mesh>,
     /// Over its triangles, for who asks where rays meet them.
     hierarchy: OnceLock<Hierarchy>,
@@ -47,6 +51,20 @@ impl Shell {
     /// Its triangles.
     pub fn polygons(&self, field: &Field) -> &Mesh {
         self.mesh.mesh.get_or_init(|| polygons(field, self.emission as f32, Faces::Closed).unwrap_or_default())
+    }
+
+    /// Its vertices and its triangles, counted before any of them is made.
+    pub fn count(&self, field: &Field) -> [u32; 2] {
+        *self.mesh.count.get_or_init(|| self.counted(field).unwrap_or_default())
+    }
+
+    fn counted(&self, field: &Field) -> Result<[u32; 2]> {
+        let level = self.emission as f32;
+        match self.mesh.mesh.get() {
+            Some(made) => Ok([made.corners.len(), made.triangles.len()].map(|count| count as u32)),
+            None if crosses(field, level, Faces::Closed) => Ok(Crossings::new(field, level, Faces::Closed)?.count),
+            None => Ok([0; 2]),
+        }
     }
 
     /// The corners of a triangle.
@@ -94,7 +112,8 @@ impl Shells {
         }
         let [_, greatest] = field.extremes();
         let rises = rises(&emissions, f64::from(greatest));
-        let mut shells = Self { repeated, ..Self::default() };
+        let disabled = levels.iter().filter(|level| !shown.contains(level)).copied().collect();
+        let mut shells = Self { repeated, disabled, ..Self::default() };
         for ((level, emission), rise) in shown.into_iter().zip(&emissions).zip(rises) {
             let known = before.and_then(|before| before.list.iter().find(|shell| shell.level == level));
             let mesh = known.map_or_else(Arc::default, |shell| shell.mesh.clone());
@@ -106,38 +125,36 @@ impl Shells {
         Ok(Some(shells))
     }
 
-    /// Makes the polygons that are not there yet.
+    /// Counts the polygons that were not counted yet.
     ///
     /// # Errors
-    /// When there are more than 32 bits count, or there is not enough memory for them.
-    pub fn build(&self, field: &Field) -> Result<()> {
-        for shell in self.list.iter().filter(|shell| shell.mesh.mesh.get().is_none()) {
-            let made = polygons(field, shell.emission as f32, Faces::Closed)?;
-            shell.mesh.mesh.get_or_init(|| made);
+    /// When a shell has more than 32 bits count, or there is not enough memory to count them.
+    pub fn count(&self, field: &Field) -> Result<()> {
+        for shell in self.list.iter().filter(|shell| shell.mesh.count.get().is_none()) {
+            let counted = shell.counted(field)?;
+            if 3 * u64::from(counted[1]) > u64::from(u32::MAX) {
+                return Err(Error::input(
+                    &field.volume.name,
+                    format!(
+                        "has a shell of {} triangles at {}, whose corners 32 bits do not count",
+                        counted[1], shell.level
+                    ),
+                    "choose another level",
+                ));
+            }
+            shell.mesh.count.get_or_init(|| counted);
         }
-        let triangles = self.triangles_before(field).pop().unwrap_or(0);
-        match 3 * triangles > u64::from(u32::MAX) {
-            false => Ok(()),
-            true => Err(Error::input(
-                &field.volume.name,
-                format!("has shells of {triangles} triangles, whose corners 32 bits do not count"),
-                "use fewer shells, or other levels",
-            )),
-        }
+        Ok(())
     }
 
-    /// Whether there is anything to be drawn: where all values about a level are missing there is not.
-    pub fn has_polygons(&self, field: &Field) -> bool {
-        self.triangles_before(field).pop().unwrap_or(0) > 0
+    /// Whether there is a shell at a level, or one that is left out for now.
+    pub fn has(&self, level: f64) -> bool {
+        self.list.iter().any(|shell| shell.level == level) || self.disabled.contains(&level)
     }
 
-    /// How many triangles come before each shell, and there are in all.
-    pub fn triangles_before(&self, field: &Field) -> Vec<u64> {
-        let mut before = vec![0];
-        for shell in &self.list {
-            before.push(before[before.len() - 1] + shell.polygons(field).triangles.len() as u64);
-        }
-        before
+    /// Triangles of all shells: where all values about a level are missing there are none.
+    pub fn triangles(&self, field: &Field) -> u64 {
+        self.list.iter().map(|shell| u64::from(shell.count(field)[1])).sum()
     }
 
     /// What a user should know of them.

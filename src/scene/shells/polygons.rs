@@ -51,7 +51,7 @@ pub fn polygons(field: &Field, level: f32, faces: Faces) -> Result<Mesh> {
 }
 
 /// Whether a shell may have polygons.
-fn crosses(field: &Field, level: f32, faces: Faces) -> bool {
+pub(super) fn crosses(field: &Field, level: f32, faces: Faces) -> bool {
     let [low, high] = field.extremes();
     (low < level || faces == Faces::Closed) && level <= high
 }

@@ -15,7 +15,7 @@ mod matrix_scenes;
 mod orbit;
 mod planner;
 mod projections;
-mod recorded;
+pub mod recorded;
 mod refraction;
 pub mod scenes;
 mod shells;

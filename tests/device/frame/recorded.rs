@@ -26,7 +26,7 @@ pub fn tests() -> Vec<Test> {
 }
 
 /// A device of its own, so that nobody else's names are in its trace.
-fn alone() -> Arc<Device> {
+pub fn alone() -> Arc<Device> {
     open(false).expect("the device once more")
 }
 
