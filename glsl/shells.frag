@@ -7,13 +7,16 @@
 // one depth for all shells, with the sign of whether the ray enters there or leaves: that depth is the middle of the view, where rays
 // begin within the volume their begin or, with OPAQUE, that of the surface that ends the ray. The paper has no such sum; its own goes to
 // no integral, however many shells there are.
+// SURFACE: where on its ray the shell is, in steps from the entry point, for the lighting pass.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [CROSSINGS | LENGTHS], [OPAQUE], [ORTHOGRAPHIC]
+//@takes [CROSSINGS | LENGTHS | SURFACE], [OPAQUE], [ORTHOGRAPHIC]
+
+#if defined(CROSSINGS) || defined(LENGTHS) || defined(SURFACE)
+#include "shared/frame.glsl"
+#endif
 
 #if defined(CROSSINGS) || defined(LENGTHS)
-#include "shared/frame.glsl"
-
 struct ShellLevel {
     // phi.
     float emission;
@@ -41,6 +44,11 @@ layout(set = 0, binding = 35, std140) uniform ShellCue {
     float middle;
 } shell_cue;
 
+#ifdef SURFACE
+layout(set = 0, binding = 1) uniform sampler2D entry;
+layout(set = 0, binding = 2) uniform sampler2D direction;
+#endif
+
 #ifdef OPAQUE
 layout(set = 0, binding = 15) uniform sampler2D layer[1];
 #endif
@@ -49,6 +57,33 @@ layout(set = 0, binding = 15) uniform sampler2D layer[1];
 layout(early_fragment_tests) in;
 
 layout(location = 0) out vec4 accumulated;
+
+#if defined(LENGTHS) || defined(SURFACE)
+// Depth in front of the eye.
+float depth_of_fragment() {
+    float stored = shell_cue.depth.x + shell_cue.depth.y * gl_FragCoord.z;
+#ifdef ORTHOGRAPHIC
+    return stored;
+#else
+    return 1.0 / stored;
+#endif
+}
+
+// Its place among the pixels of the picture.
+vec2 place_in_picture() {
+    return gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
+}
+
+// What the ray through the pixel goes on by with each unit of depth, volume space.
+vec3 ray_through_pixel() {
+#ifdef ORTHOGRAPHIC
+    return frame.base[0].xyz;
+#else
+    vec2 pixel = place_in_picture();
+    return frame.base[0].xyz + pixel.x * frame.right[0].xyz + pixel.y * frame.down[0].xyz;
+#endif
+}
+#endif
 
 #ifdef LENGTHS
 // The natural logarithm of a number above 0: those of drivers have too few digits.
@@ -76,25 +111,38 @@ float cue_between(float from, float to) {
 }
 
 float way_to_end() {
-    float stored = shell_cue.depth.x + shell_cue.depth.y * gl_FragCoord.z;
-#ifdef ORTHOGRAPHIC
-    float from = stored;
-    vec3 direction = frame.base[0].xyz;
-#else
-    float from = 1.0 / stored;
-    vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
-    vec3 direction = frame.base[0].xyz + pixel.x * frame.right[0].xyz + pixel.y * frame.down[0].xyz;
-#endif
+    vec3 ray = ray_through_pixel();
+    float from = depth_of_fragment();
     float end = shell_cue.middle;
 #ifdef OPAQUE
     float nearness = texelFetch(layer[0], ivec2(gl_FragCoord.xy), 0).x;
     end = nearness > 0.0 ? frame.near / nearness : end;
 #endif
-    return cue_between(from, end) * length(direction) * shell_cue.lengths;
+    return cue_between(from, end) * length(ray) * shell_cue.lengths;
+}
+#endif
+
+#ifdef SURFACE
+// Steps from where the ray enters the volume.
+float steps_from_entry() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec3 origin = frame.origin[0].xyz;
+#ifdef ORTHOGRAPHIC
+    vec2 pixel = place_in_picture();
+    origin += pixel.x * frame.right[0].xyz + pixel.y * frame.down[0].xyz;
+#endif
+    vec3 place = origin + depth_of_fragment() * ray_through_pixel();
+    vec3 begin = (texelFetch(entry, texel, 0).xyz - 0.5) * frame.extent[0].xyz;
+    return dot(place - begin, texelFetch(direction, texel, 0).xyz) * frame.inverse_step;
 }
 #endif
 
 void main() {
+#ifdef SURFACE
+    float steps = max(steps_from_entry(), 0.0);
+    accumulated = vec4(steps, steps, 0.0, 1.0);
+    return;
+#endif
 #if defined(LENGTHS)
     float way = way_to_end() * shell_levels.list[this_step.pass].rise;
     float brightness = gl_FrontFacing ? way : -way;

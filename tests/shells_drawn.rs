@@ -12,12 +12,13 @@ use depthleap::read;
 use depthleap::scene::Scene;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
-    Accumulate, ClipSettings, Filter, Last, MeshSettings, Offset, Settings, ShellMode, ShellOrder, ShellSum,
-    VolumeTexture,
+    Accumulate, ClipSettings, Filter, Last, MeshSettings, MethodName, Offset, Refine, Settings, ShellMode, ShellOrder,
+    ShellSum, Shows, VolumeTexture,
 };
 use depthleap::scene::shells::ShellDepth;
 use depthleap::truth::exact::ExactIntegrator;
 use drawn::drawn;
+use glam::DVec3;
 
 fn settings(volume: &str, mode: ShellMode, change: impl FnOnce(&mut Settings)) -> Settings {
     let mut settings = Settings::default();
@@ -228,6 +229,50 @@ fn ways_end_at_a_surface() {
 }
 
 #[test]
+fn outermost_shell_is_where_rays_meet_its_level_and_lit_as_there() {
+    let shown = |shows: Shows, method: MethodName| {
+        picture(&scene("gaussian:48", ShellMode::Surface, |s| {
+            (s.shells.shell_levels, s.shells.disabled) = (vec![0.2, 0.5, 0.8], vec![1]);
+            (s.surface.shows, s.surface.refine, s.method.name) = (shows, Refine::Exact, method);
+            s.volume.range = Some([0.0, 1.0].map(Into::into));
+            s.transfer.preset = Some("haze".to_owned());
+            s.sampling.offset = Offset::Left;
+        }))
+    };
+    let [places, colors] = [Shows::Position, Shows::Color].map(|shows| shown(shows, SHELLS.name()));
+    let rays = shown(Shows::Color, RC.name());
+    let (mut met, mut differing) = (0, 0);
+    for ((place, color), ray) in places.pixels.iter().zip(&colors.pixels).zip(&rays.pixels) {
+        // A polygon lies within the sphere, and rays that pass between them meet none.
+        differing += usize::from(color[3] != ray[3]);
+        if place[3] == 0.0 || color[3] != ray[3] {
+            continue;
+        }
+        let off = (DVec3::new(place[0], place[1], place[2]).length() - radius(0.5)).abs();
+        assert!(off < OFF, "{place:?} is {off:e} off the sphere");
+        let apart = (0..3).map(|c| (color[c] - ray[c]).abs()).fold(0.0, f64::max);
+        assert!(apart < 0.03 && color[3] == 1.0, "{color:?}, of rays {ray:?}");
+        met += 1;
+    }
+    assert!(met > 100 && differing < 8, "{met} pixels held, {differing} are of one of both");
+}
+
+#[test]
+fn outermost_shell_and_meshes_hide_each_other() {
+    let scene = |depth: f64| {
+        picture(&scene("gaussian:32", ShellMode::Surface, |s| {
+            (s.shells.shell_levels, s.sampling.offset) = (vec![0.5], Offset::Left);
+            s.volume.range = Some([0.0, 1.0].map(Into::into));
+            s.meshes = vec![MeshSettings { color: [0.0, 9.0, 0.0], translate: [0.0, 0.0, depth], ..cuboid(0.1) }];
+            (s.camera.eye, s.camera.height) = ([0.0, 0.0, 2.0], Some(1.0));
+        }))
+    };
+    let middle = 16 * 40 + 20;
+    let is_green = |frame: &CpuFrame| frame.pixels[middle][1] > 1.0;
+    assert!(is_green(&scene(0.4)) && !is_green(&scene(0.0)) && !is_green(&scene(-0.4)));
+}
+
+#[test]
 fn a_level_that_changes_leaves_the_other_shells() {
     use depthleap::scene::Shells;
     let first = scene("jets:16", ShellMode::Max, |s| s.shells.shell_levels = vec![50.0, 100.0, 150.0]);
@@ -257,7 +302,7 @@ fn refused(settings: &Settings) -> String {
 #[test]
 fn what_shells_cannot_draw_is_refused_with_a_reason() {
     type Change = fn(&mut Settings);
-    let cases: [(Change, &str); 16] = [
+    let cases: [(Change, &str); 19] = [
         (|s| s.shells.mode = None, "--shells max"),
         (|s| s.shells.count = 0, "shells.count"),
         (|s| s.shells.count = 1000, "shells.count"),
@@ -266,6 +311,12 @@ fn what_shells_cannot_draw_is_refused_with_a_reason() {
         (|s| s.shells.shell_levels = vec![-3.0], "below 0"),
         (|s| s.shells.a = -1.0, "shells.a"),
         (|s| s.shells.disabled = vec![12], "number 12"),
+        (|s| (s.shells.mode, s.shells.a) = (Some(ShellMode::Surface), 0.5), "depth cue"),
+        (|s| (s.shells.mode, s.surface.iso) = (Some(ShellMode::Surface), Some(0.5)), "leave one of them out"),
+        (
+            |s| (s.shells.mode, s.shells.disabled) = (Some(ShellMode::Surface), (1..=11).collect()),
+            "leaves all shells out",
+        ),
         (|s| s.projection.kind = "xray".parse().unwrap(), "--projection xray"),
         (|s| (s.method.name, s.shells.a) = (RC.name(), 0.5), "depth cue"),
         (|s| s.surface.iso = Some(90.0), "iso-surfaces"),

@@ -13,6 +13,17 @@ use crate::scene::settings::{ProjectionName, ShellMode, ShellSum};
 pub fn check(scene: &Scene, method: &Method) -> Result<()> {
     let settings = &scene.settings.shells;
     let Some(mode) = settings.mode else { return Ok(()) };
+    let cue = settings.a != 0.0 || settings.beta0 + settings.b != 1.0;
+    if mode == ShellMode::Surface {
+        return match cue {
+            true => Err(Error::usage(
+                "shells.beta0, a, b (--shell-beta0, --shell-a, --shell-b)",
+                "ask for a depth cue of emissions, and --shells surface shows a surface in light",
+                "leave them out",
+            )),
+            false => Ok(()),
+        };
+    }
     let (asked, of_mode) = (scene.settings.projection.kind, projection::of(&scene.settings).name());
     if asked != ProjectionName::default() && asked != of_mode {
         return Err(Error::usage(
@@ -29,9 +40,7 @@ pub fn check(scene: &Scene, method: &Method) -> Result<()> {
         Err(Error::usage(input, problem, "use --method shells, or leave it out"))
     };
     match () {
-        () if settings.a != 0.0 || settings.beta0 + settings.b != 1.0 => {
-            alone("shells.beta0, a, b (--shell-beta0, --shell-a, --shell-b)", "ask for a depth cue")
-        }
+        () if cue => alone("shells.beta0, a, b (--shell-beta0, --shell-a, --shell-b)", "ask for a depth cue"),
         () if mode == ShellMode::Sum && settings.sum == ShellSum::Crossings => {
             alone("shells.sum (--shell-sum) crossings", "asks for a sum over polygons")
         }

@@ -34,7 +34,7 @@ fn count(scene: &Scene, number: u32) -> [u32; 2] {
 fn hits(scene: &Scene, view: &View, Sample { pixel, raster }: Sample) -> Hits {
     let mut hits = Hits { fragments: 0, undecided: false };
     let Some((shells, depth)) = scene.shells.as_ref().zip(ShellDepth::of(scene, &view.rays)) else { return hits };
-    for shell in &shells.list {
+    for shell in shells.drawn() {
         let crossings = shell.crossings(&scene.field, &view.rays, pixel, &depth, raster);
         hits.fragments += crossings.list.len() as u32;
         hits.undecided |= crossings.undecided;

@@ -68,7 +68,8 @@ fn check_shells(info: &DeviceInfo, scene: &Scene, plan: &Plan) -> Result<()> {
         return Ok(());
     }
     let (needed, there) = (resource::shell_bytes(scene).into_iter().sum::<u64>(), info.memory_bytes);
-    let vertices = scene.shells.iter().flat_map(|shells| &shells.list).map(|shell| shell.count(&scene.field)[0]);
+    let drawn = scene.shells.iter().flat_map(|shells| shells.drawn());
+    let vertices = drawn.map(|shell| shell.count(&scene.field)[0]);
     let most = vertices.max().unwrap_or(0);
     let problem = match () {
         () if needed > there => {

@@ -34,5 +34,5 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
 pub(super) fn polygons_of_shells(scene: &Scene, plan: &Plan) -> Option<String> {
     let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples())?;
     let triangles = shells.triangles(&scene.field);
-    Some(format!("{} shells of {triangles} triangles", shells.list.len()))
+    Some(format!("{} shells of {triangles} triangles", shells.drawn().len()))
 }

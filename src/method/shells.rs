@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::feature::START;
 use crate::part::rows::{Context, Method, Traversal};
 use crate::part::steps::Steps;
-use crate::pass::{layer, shells, start};
+use crate::pass::{direction, entry, layer, lighting, shells, start};
 use crate::scene::Scene;
 use crate::scene::settings::{Accumulate, Filter, ShellMode, ShellOrder, ShellSum};
 use crate::scene::shells::ShellDepth;
@@ -32,15 +32,15 @@ fn takes(scene: &Scene) -> Result<()> {
         return Err(Error::usage(
             method(),
             "does not know what to make of shells",
-            "use --shells max, or --shells sum",
+            "use --shells max, --shells sum, or --shells surface",
         ));
     };
     let refused = |problem: &str, remedy: &str| Err(Error::usage(method(), problem, remedy));
     let (polygons, opaque) = (&scene.polygons, !scene.polygons.opaque().is_empty());
     let one_sided = || polygons.materials.iter().any(|material| material.is_opaque() && !material.two_sided);
     match () {
-        () if scene.surface.is_some() => {
-            refused("draws no iso-surfaces in light", "use a ray caster, or leave the surface out (--iso)")
+        () if scene.surface.is_some() && mode != ShellMode::Surface => {
+            refused("draws no iso-surfaces but shells", "use --shells surface, or leave the surface out (--iso)")
         }
         () if !scene.clip_planes().is_empty() || !polygons.clips().is_empty() || scene.clip_volume.is_some() => {
             refused("draws whole shells, which nothing cuts", "use a ray caster, or leave out [[clip]] (--clip-plane)")
@@ -100,11 +100,14 @@ fn begins_within(scene: &Scene) -> bool {
 
 /// Surfaces, then the shells in their order; those that hide what is behind them once more before each shell, in its depth.
 fn draw(context: &Context, steps: &mut Steps) {
+    let settings = &context.scene.settings.shells;
+    if settings.mode == Some(ShellMode::Surface) {
+        return draw_outermost(context, steps);
+    }
     steps.extend(context.has(&START).then(start::black));
     peel(context, steps);
     steps.enter(0, None);
     steps.extend(context.opaque.then(|| layer::opaque_first(context)));
-    let settings = &context.scene.settings.shells;
     let greatest = settings.mode == Some(ShellMode::Max);
     if context.opaque && !greatest && context.passes > 0 {
         steps.push(shells::surfaces(context, None));
@@ -115,11 +118,30 @@ fn draw(context: &Context, steps: &mut Steps) {
         ShellOrder::Dimmest => false,
     };
     let numbers = |i: u32| if brightest_first { context.passes - 1 - i } else { i };
-    let field = &context.scene.field;
-    let shells = context.scene.shells.as_ref().map_or(&[][..], |shells| &shells.list);
-    let has_polygons = |number: &u32| shells.get(*number as usize).is_some_and(|shell| shell.count(field)[1] > 0);
-    for number in (0..context.passes).map(numbers).filter(has_polygons) {
+    for number in (0..context.passes).map(numbers).filter(|number| has_polygons(context, *number)) {
         steps.extend((context.opaque && greatest).then(|| shells::surfaces(context, Some(number))));
         steps.push(shells::shell(context, number));
     }
+}
+
+/// The outermost shell and surfaces hide each other; then it is lit as where rays meet it.
+fn draw_outermost(context: &Context, steps: &mut Steps) {
+    if context.passes > 0 {
+        steps.push(entry::entry(context));
+        steps.push(direction::direction(context));
+    }
+    peel(context, steps);
+    steps.enter(0, None);
+    if context.passes > 0 {
+        steps.extend(context.opaque.then(|| shells::surfaces(context, None)));
+        steps.push(shells::shell(context, 0));
+        steps.push(lighting::of_polygons(context));
+    }
+    steps.extend(context.opaque.then(|| layer::opaque(context)));
+}
+
+/// Whether there is anything of a shell to be drawn.
+fn has_polygons(context: &Context, number: u32) -> bool {
+    let shell = context.scene.shells.as_ref().and_then(|shells| shells.list.get(number as usize));
+    shell.is_some_and(|shell| shell.count(&context.scene.field)[1] > 0)
 }

@@ -6,7 +6,7 @@ use crate::geometry::BOX_FRONT;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
 use crate::part::rows::{Context, Hook};
-use crate::part::{Draw, Group, Step};
+use crate::part::{Draw, Group, Step, Work};
 use crate::resource;
 use crate::twin;
 
@@ -34,6 +34,15 @@ pub fn lighting(context: &Context) -> Step {
     draw.specialize(sampling.into_iter().filter(|(name, _)| SAMPLING.contains(name)));
     draw.specialize([surface::refine(context)]);
     Step::drawn("lighting".to_owned(), Group::Light, 0, accesses, draw)
+}
+
+/// The same of the polygons of a surface, which tell where it is.
+pub fn of_polygons(context: &Context) -> Step {
+    let mut step = lighting(context);
+    if let Work::Draw(draw) = &mut step.work {
+        draw.twin = Some(twin::shells::lighting);
+    }
+    step
 }
 
 /// Of the constants of samples, those that say what a value is, and what lights are.

@@ -5,7 +5,8 @@ use ash::vk;
 use crate::feature::ORTHOGRAPHIC;
 use crate::feature::layers::opaque_layer;
 use crate::geometry::{SHELL_SURFACES, SHELLS};
-use crate::part::access::Usage;
+use crate::math::blend::Blend;
+use crate::part::access::{Access, Usage};
 use crate::part::rows::Context;
 use crate::part::{DepthTest, Draw, Group, Step};
 use crate::resource;
@@ -26,42 +27,55 @@ fn range(context: &Context, number: u32) -> [f32; 2] {
 
 /// A shell, by its number from the dimmest on.
 pub fn shell(context: &Context, number: u32) -> Step {
-    let settings = &context.scene.settings.shells;
+    let polygons = resource::SHELL_POLYGONS.at(number as u16);
     let mut accesses = vec![
-        Usage::Vertices.of(resource::SHELL_POLYGONS.at(number as u16)),
+        Usage::Vertices.of(polygons),
         Usage::Placing.of(resource::SHELL_PLACEMENT),
         Usage::Sampled.of(resource::SHELL_CUE),
     ];
     let mut draw = Draw::plain(&SHELLS, "shells.frag", twin::shells::shell);
-    (draw.vertices, draw.depths) = (resource::SHELL_POLYGONS.at(number as u16), range(context, number));
-    match settings.mode {
-        Some(ShellMode::Max) => {
-            accesses.push(Usage::Color.of(resource::ACCUMULATED));
-            accesses.push(Usage::DepthWrite.of(resource::SHELL_DEPTH));
-            draw.test = DepthTest { compare: GREATER, write: true, bounds: false };
-        }
-        Some(ShellMode::Sum) | None => {
-            accesses.push(Usage::Sampled.of(resource::SHELL_LEVELS));
-            if settings.sum == ShellSum::Lengths {
-                accesses.push(Usage::Sampled.of(resource::FRAME));
-                draw.define(["LENGTHS"]);
-                draw.define(context.has(&ORTHOGRAPHIC).then_some("ORTHOGRAPHIC"));
-                if context.opaque {
-                    accesses.push(Usage::Sampled.of(opaque_layer(context)));
-                    draw.define(["OPAQUE"]);
-                }
-            } else {
-                draw.define(["CROSSINGS"]);
-            }
-            accesses.push(Usage::Color.of(resource::ACCUMULATED));
-            if context.opaque {
-                accesses.push(Usage::DepthTest.of(resource::SHELL_DEPTH));
-                draw.test = DepthTest { compare: GREATER, write: false, bounds: false };
-            }
-        }
+    (draw.vertices, draw.depths) = (polygons, range(context, number));
+    let mode = context.scene.settings.shells.mode.unwrap_or(ShellMode::Sum);
+    match mode {
+        ShellMode::Max => accesses.push(Usage::Color.of(resource::ACCUMULATED)),
+        ShellMode::Sum => sum(context, &mut draw, &mut accesses),
+        ShellMode::Surface => surface(context, &mut draw, &mut accesses),
     }
-    draw.blend = context.blend();
+    if mode != ShellMode::Sum {
+        accesses.push(Usage::DepthWrite.of(resource::SHELL_DEPTH));
+        draw.test = DepthTest { compare: GREATER, write: true, bounds: false };
+    } else if context.opaque {
+        accesses.push(Usage::DepthTest.of(resource::SHELL_DEPTH));
+        draw.test = DepthTest { compare: GREATER, write: false, bounds: false };
+    }
+    draw.blend = if mode == ShellMode::Surface { Blend::Replace } else { context.blend() };
     Step::drawn(format!("shell_pass #{number}"), Group::Main, number, accesses, draw)
+}
+
+/// What a shell adds to a sum.
+fn sum(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
+    accesses.push(Usage::Sampled.of(resource::SHELL_LEVELS));
+    if context.scene.settings.shells.sum == ShellSum::Lengths {
+        accesses.push(Usage::Sampled.of(resource::FRAME));
+        draw.define(["LENGTHS"]);
+        draw.define(context.has(&ORTHOGRAPHIC).then_some("ORTHOGRAPHIC"));
+        if context.opaque {
+            accesses.push(Usage::Sampled.of(opaque_layer(context)));
+            draw.define(["OPAQUE"]);
+        }
+    } else {
+        draw.define(["CROSSINGS"]);
+    }
+    accesses.push(Usage::Color.of(resource::ACCUMULATED));
+}
+
+/// Where on its ray a shell is.
+fn surface(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
+    let read = [resource::FRAME, resource::ENTRY, resource::DIRECTION];
+    accesses.extend(read.map(|resource| Usage::Sampled.of(resource)));
+    draw.define(["SURFACE"]);
+    draw.define(context.has(&ORTHOGRAPHIC).then_some("ORTHOGRAPHIC"));
+    accesses.push(Usage::Color.of(resource::SURFACE_HIT));
 }
 
 /// Opaque polygons into the depth buffer, without colours; where the greatest is to be found under the matrix of a shell.

@@ -217,7 +217,8 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     // The frame's list has room for them.
     let mut steps = frame;
     steps.splice(0..0, before);
-    let texture = (method.on_device && passes > 0 && method.takes_samples()).then(|| {
+    let reads_volume = method.takes_samples() || scene.surface.is_some();
+    let texture = (method.on_device && passes > 0 && reads_volume).then(|| {
         let volume = TextureChoice::of(scene);
         TextureChoice { error: volume.error.max(scene.error_beside()), ..volume }
     });
@@ -235,7 +236,7 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
     if method.traversal == Traversal::Shells {
         let shells =
             scene.shells.as_ref().filter(|shells| view.region.pixels() > 0 && shells.triangles(&scene.field) > 0);
-        return shells.map_or(0, |shells| shells.list.len() as u32);
+        return shells.map_or(0, |shells| shells.drawn().len() as u32);
     }
     let sampling = &scene.settings.sampling;
     if let Some(slices) = &view.slices {

@@ -51,7 +51,7 @@ pub fn of(settings: &Settings) -> &'static Projection {
     match settings.shells.mode {
         Some(ShellMode::Max) => return &MIP,
         Some(ShellMode::Sum) => return &XRAY,
-        None => {}
+        Some(ShellMode::Surface) | None => {}
     }
     let named = |row: &&Projection| row.name == settings.projection.kind.name();
     PROJECTIONS.into_iter().find(named).unwrap_or(&COMPOSITE)

@@ -11,9 +11,12 @@ use crate::error::{Error, Result};
 use crate::math::polyhedron::HalfSpace;
 use crate::scene::mesh::{Keep, Mesh, shape};
 use crate::scene::mesh_field::{self, DEFAULT_BAND};
-use crate::scene::settings::{ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, VolumeSettings};
+use crate::scene::settings::{
+    ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, ShellMode, VolumeSettings,
+};
 use crate::scene::{
-    Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Shells, Surface, TextureUnit, Volume, builtin,
+    Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Shells, Surface, TextureUnit, TransferFunction, Volume,
+    builtin,
 };
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
@@ -128,8 +131,11 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     let planes = settings.clips.iter().filter_map(ClipSettings::half_space).map(in_axes);
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
     let clip_volume = clip_volume(settings, &field)?.map(Arc::new);
-    let surface = Surface::of(settings, &field, &transfer);
     let shells = Shells::new(&settings.shells, &field, None)?.map(Arc::new);
+    let surface = match shells.as_deref() {
+        Some(shells) if shells.mode == ShellMode::Surface => Some(outermost(settings, shells, &field, &transfer)?),
+        _ => Surface::of(settings, &field, &transfer),
+    };
     let lights = settings.lights.iter().map(|light| light.light().turned(back)).collect();
     let (mut settings, field) = (settings.clone(), Arc::new(field));
     settings.effects.hash = effect.as_ref().map(|effect| effect.hash.clone());
@@ -150,6 +156,24 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
         effect,
         unit,
     })
+}
+
+/// The outermost shell as an iso-surface.
+fn outermost(settings: &Settings, shells: &Shells, field: &Field, transfer: &TransferFunction) -> Result<Surface> {
+    let refused = |input: &str, problem: &str, remedy: &str| Err(Error::usage(input, problem, remedy));
+    if settings.surface.is_asked() {
+        return refused(
+            "shells.mode (--shells surface)",
+            "shows the outermost shell, and [surface] (--iso) asks for other surfaces",
+            "leave one of them out",
+        );
+    }
+    let mut settings = settings.clone();
+    settings.surface.iso = shells.outermost();
+    match Surface::of(&settings, field, transfer) {
+        Some(surface) => Ok(surface),
+        None => refused("shells.disabled", "leaves all shells out", "give fewer numbers"),
+    }
 }
 
 /// The meshes in their places, in the axes of a volume that `turn` leads from to volume space.

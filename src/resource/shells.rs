@@ -30,10 +30,10 @@ fn polygon_bytes([vertices, triangles]: [u32; 2]) -> u64 {
     size_of::<[f32; 3]>() as u64 * u64::from(vertices) + size_of::<[u32; 3]>() as u64 * u64::from(triangles)
 }
 
-/// Bytes of the polygons of each of a scene's shells.
+/// Bytes of the polygons of each of a scene's shells that is drawn.
 pub fn shell_bytes(scene: &Scene) -> Vec<u64> {
-    let shells = scene.shells.iter().flat_map(|shells| &shells.list);
-    shells.map(|shell| polygon_bytes(shell.count(&scene.field))).collect()
+    let drawn = scene.shells.iter().flat_map(|shells| shells.drawn());
+    drawn.map(|shell| polygon_bytes(shell.count(&scene.field))).collect()
 }
 
 /// Bytes of the largest buffer that building a scene's shells on a device takes.

@@ -1,9 +1,12 @@
 //! Twin of `glsl/shells.frag`, and of what the depth test makes of shells and of surfaces among them [Heidrich95 §2].
 
+use super::lighting::RoundedPlace;
 use super::{Effect, Pixel, Twin};
-use crate::math::ray::Lens;
 use crate::scene::settings::{ShellMode, ShellSum};
 use crate::scene::shells::{Shell, ShellCrossing, ShellDepth, crossing_of};
+
+/// What f32 takes from a place on a ray, relative to the way there.
+const PLACE_ROUNDING: f64 = 1e-6;
 
 /// What f32 takes from a brightness, relative to the greatest there is.
 const BRIGHTNESS_ROUNDING: f64 = 4e-7;
@@ -19,6 +22,7 @@ pub fn shell(twin: &Twin, pixel: &mut Pixel, number: u32) -> Effect {
     for crossing in &crossings.list {
         let (fragments, contributed) = match (settings.mode, settings.sum) {
             (Some(ShellMode::Max), _) => twin.brighter(pixel, shell, crossing, &depth),
+            (Some(ShellMode::Surface), _) => twin.outermost(pixel, crossing, &depth),
             (_, ShellSum::Crossings) => {
                 let of = |pixel: &mut Pixel| {
                     let rise = depth.cue(1.0) - depth.cue(0.0);
@@ -32,6 +36,16 @@ pub fn shell(twin: &Twin, pixel: &mut Pixel, number: u32) -> Effect {
         effect = (effect.0 + fragments, effect.1 + contributed);
     }
     Effect::Several { fragments: effect.0, contributed: effect.1 }
+}
+
+/// Lights the shell that the ray has met, where its polygons are.
+pub fn lighting(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+    let [steps, _, _, met] = pixel.hit;
+    if met == 0.0 {
+        return Effect::Discarded;
+    }
+    twin.put_surface(pixel, RoundedPlace { steps, rounding: pixel.cut }, 0);
+    Effect::Silent
 }
 
 /// Draws opaque polygons into the depth buffer, where the greatest is to be found as a shell has its depth.
@@ -92,6 +106,21 @@ impl Twin<'_> {
         (1, u64::from(before == 0.0))
     }
 
+    /// A fragment of the outermost shell.
+    fn outermost(&self, pixel: &mut Pixel, crossing: &ShellCrossing, depth: &ShellDepth) -> (u64, u64) {
+        if !self.nearer(pixel, crossing, depth.range(ShellMode::Surface, 0.0)) {
+            return (0, 0);
+        }
+        let ray = self.rays.of(pixel.column, pixel.row);
+        let begin = (pixel.entry - 0.5) * self.scene.field.extent();
+        let place = ray.origin + crossing.depth * ray.direction;
+        let steps = (place - begin).dot(pixel.direction) / self.step_length();
+        let first = pixel.hit[3] == 0.0;
+        pixel.hit = [steps.max(0.0), steps.max(0.0), 0.0, 1.0];
+        pixel.cut = depth.moved(crossing) * ray.direction.length() / self.step_length() + PLACE_ROUNDING * steps.abs();
+        (1, u64::from(first))
+    }
+
     /// A fragment of a sum.
     fn added(&self, pixel: &mut Pixel, crossing: &ShellCrossing, value: impl Fn(&mut Pixel) -> f64) -> (u64, u64) {
         let behind = pixel.shell_spread > 0.0;
@@ -116,12 +145,7 @@ impl Twin<'_> {
             enter + surface.steps * self.step_length() / ray.direction.length()
         });
         let sign = if crossing.enters { 1.0 } else { -1.0 };
-        // How far the depth may be off, by how far that of the depth buffer may be.
-        let moved = match depth.lens {
-            Lens::Perspective => crossing.spread * crossing.depth.powi(2) * (1.0 / depth.nearest - 1.0 / depth.far),
-            Lens::Orthographic => crossing.spread * (depth.far - depth.nearest),
-        };
-        pixel.rounding += shell.rise * lengths * depth.cue(crossing.stored) * moved;
+        pixel.rounding += shell.rise * lengths * depth.cue(crossing.stored) * depth.moved(crossing);
         sign * shell.rise * lengths * depth.between(crossing.depth, end)
     }
 }

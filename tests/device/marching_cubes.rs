@@ -27,7 +27,7 @@ pub fn tests() -> Vec<Test> {
     let mut tests = vec![
         of("bytes", |device| agree(device, &shells("shells:35x33x31", |_| {}))),
         of("bytes_in_16_bits", |device| {
-            agree(device, &shells("jets:20x34x9", |s| s.volume.texture = VolumeTexture::R16))
+            agree(device, &shells("shells:20x34x9", |s| s.volume.texture = VolumeTexture::R16))
         }),
         of("numbers", |device| agree(device, &random([31, 6, 5], Voxels::F32, NanPolicy::Replace, |v| v))),
         of("holes", |device| {

@@ -105,6 +105,10 @@ const KINDS: [(&str, Change); 81] = [
         (s.shells.mode, s.shells.sum, s.shells.a) = (Some(ShellMode::Sum), ShellSum::Crossings, 0.5);
         (s.shells.count, s.meshes) = (2, vec![across(1.0)]);
     }),
+    ("shells, the outermost one in light, with a box through it", |s| {
+        (s.shells.mode, s.shells.shell_levels) = (Some(ShellMode::Surface), vec![90.0, 150.0]);
+        s.meshes = vec![across(1.0)];
+    }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),
     ("an opaque box", |s| s.meshes = vec![cuboid(0.45, 1.0)]),

@@ -181,6 +181,7 @@ pub fn cases() -> Vec<Case> {
         ("shells_max", ShellMode::Max, false),
         ("shells_max_surface", ShellMode::Max, true),
         ("shells_sum_surface", ShellMode::Sum, true),
+        ("shells_outermost_surface", ShellMode::Surface, true),
     ] {
         cases.push(Case { name, plan: shells(mode, meshed) });
     }

@@ -17,8 +17,8 @@ section! {
     #[command(next_help_heading = "Shells")]
     ShellsSettings, ShellsOptions, "shells";
 
-    /// Show values as emissions, of which the greatest or the sum counts: --method shells, which asks for it, draws shells of polygons, and
-    /// other methods do as with --projection mip or xray
+    /// Show values as emissions, of which the greatest or the sum counts, or the outermost shell in light: --method shells, which asks for
+    /// it, draws shells of polygons, and other methods do as with --projection mip or xray, or with --iso
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long = "shells", value_name = "MODE")]
     mode?: ShellMode;
@@ -67,6 +67,8 @@ pub enum ShellMode {
     Max,
     /// The sum of emissions [Heidrich95 §2.1], or of ways.
     Sum,
+    /// The outermost shell in light [Heidrich95 §5].
+    Surface,
 }
 
 /// The order of shells.

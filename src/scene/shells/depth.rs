@@ -1,5 +1,6 @@
 //! Where shells lie in depth: z of the depth cue, and the matrices that take it to the depth buffer [Heidrich95 §3].
 
+use super::rays::ShellCrossing;
 use crate::math::ray::{Lens, ViewRays};
 use crate::scene::Scene;
 use crate::scene::settings::ShellMode;
@@ -64,7 +65,15 @@ impl ShellDepth {
     pub fn range(&self, mode: ShellMode, emission: f64) -> [f32; 2] {
         match mode {
             ShellMode::Max => [0.0, 1.0].map(|stored| (self.scale * emission * self.cue(stored)) as f32),
-            ShellMode::Sum => [0.0, 1.0],
+            ShellMode::Sum | ShellMode::Surface => [0.0, 1.0],
+        }
+    }
+
+    /// How far the depth of a crossing may be off, by how far that of the depth buffer may be.
+    pub fn moved(&self, crossing: &ShellCrossing) -> f64 {
+        match self.lens {
+            Lens::Perspective => crossing.spread * crossing.depth.powi(2) * (1.0 / self.nearest - 1.0 / self.far),
+            Lens::Orthographic => crossing.spread * (self.far - self.nearest),
         }
     }
 

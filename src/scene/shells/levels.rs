@@ -11,11 +11,13 @@ use crate::error::{Error, Result};
 use crate::math::bvh::{Bounds, Hierarchy};
 use crate::scene::Field;
 use crate::scene::mesh::Mesh;
-use crate::scene::settings::ShellsSettings;
+use crate::scene::settings::{ShellMode, ShellsSettings};
 
 /// Shells by rising emission, but for those whose level no value reaches.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Shells {
+    pub mode: ShellMode,
+    /// The shells, the dimmest first.
     pub list: Vec<Shell>,
     /// Levels that no value reaches, in the volume's own unit.
     pub empty: Vec<f64>,
@@ -90,9 +92,7 @@ impl Shells {
     /// # Errors
     /// When an emission is below 0, or `disabled` has a number that no shell has.
     pub fn new(settings: &ShellsSettings, field: &Field, before: Option<&Self>) -> Result<Option<Self>> {
-        if settings.mode.is_none() {
-            return Ok(None);
-        }
+        let Some(mode) = settings.mode else { return Ok(None) };
         let mut levels = match settings.shell_levels.as_slice() {
             [] => in_the_middle(settings.count as usize, field.range),
             levels => levels.to_vec(),
@@ -113,7 +113,7 @@ impl Shells {
         let [_, greatest] = field.extremes();
         let rises = rises(&emissions, f64::from(greatest));
         let disabled = levels.iter().filter(|level| !shown.contains(level)).copied().collect();
-        let mut shells = Self { repeated, disabled, ..Self::default() };
+        let mut shells = Self { mode, list: Vec::new(), empty: Vec::new(), disabled, repeated };
         for ((level, emission), rise) in shown.into_iter().zip(&emissions).zip(rises) {
             let known = before.and_then(|before| before.list.iter().find(|shell| shell.level == level));
             let mesh = known.map_or_else(Arc::default, |shell| shell.mesh.clone());
@@ -130,7 +130,7 @@ impl Shells {
     /// # Errors
     /// When a shell has more than 32 bits count, or there is not enough memory to count them.
     pub fn count(&self, field: &Field) -> Result<()> {
-        for shell in self.list.iter().filter(|shell| shell.mesh.count.get().is_none()) {
+        for shell in self.drawn().iter().filter(|shell| shell.mesh.count.get().is_none()) {
             let counted = shell.counted(field)?;
             if 3 * u64::from(counted[1]) > u64::from(u32::MAX) {
                 return Err(Error::input(
@@ -152,9 +152,20 @@ impl Shells {
         self.list.iter().any(|shell| shell.level == level) || self.disabled.contains(&level)
     }
 
-    /// Triangles of all shells: where all values about a level are missing there are none.
+    /// The level of the outermost shell, whether any value reaches it or not; none where all shells are left out.
+    pub fn outermost(&self) -> Option<f64> {
+        self.list.first().map(|shell| shell.level).or_else(|| self.empty.first().copied())
+    }
+
+    /// The shells that are drawn: all of them, or the outermost one.
+    pub fn drawn(&self) -> &[Shell] {
+        let count = if self.mode == ShellMode::Surface { 1 } else { self.list.len() };
+        &self.list[..count.min(self.list.len())]
+    }
+
+    /// Triangles of the shells that are drawn: where all values about a level are missing there are none.
     pub fn triangles(&self, field: &Field) -> u64 {
-        self.list.iter().map(|shell| u64::from(shell.count(field)[1])).sum()
+        self.drawn().iter().map(|shell| u64::from(shell.count(field)[1])).sum()
     }
 
     /// What a user should know of them.

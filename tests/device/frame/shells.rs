@@ -13,7 +13,7 @@ use crate::harness::{Test, test};
 
 type Change = fn(&mut Settings);
 
-const SCENES: [(&str, &str, Change); 9] = [
+const SCENES: [(&str, &str, Change); 12] = [
     ("greatest", "gaussian:12x10x8", |s| s.shells.mode = Some(ShellMode::Max)),
     ("greatest_by_depth", "gaussian:10x11x9", |s| {
         s.shells.mode = Some(ShellMode::Max);
@@ -39,6 +39,15 @@ const SCENES: [(&str, &str, Change); 9] = [
     ("ways_with_surfaces", "gaussian:9x10x11", |s| {
         (s.shells.mode, s.shells.a, s.shells.b) = (Some(ShellMode::Sum), 0.7, 0.3);
         s.meshes = vec![tool([0.6, 0.5, 0.4])];
+    }),
+    ("outermost_in_light", "gaussian:12x10x8", |s| s.shells.mode = Some(ShellMode::Surface)),
+    ("outermost_with_surfaces_side_by_side", "gaussian:9x10x11", |s| {
+        (s.shells.mode, s.camera.height) = (Some(ShellMode::Surface), Some(1.2));
+        s.meshes = vec![tool([0.6, 0.5, 0.4])];
+    }),
+    ("outermost_from_within", "gaussian:9", |s| {
+        s.shells.mode = Some(ShellMode::Surface);
+        (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
     }),
     ("crossings_with_surfaces", "gaussian:10", |s| {
         (s.shells.mode, s.shells.sum) = (Some(ShellMode::Sum), ShellSum::Crossings);
