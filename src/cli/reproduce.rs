@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use super::open::DeviceOptions;
 use super::output::{self, Progress};
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::write_pages;
+use crate::experiment::reproduce::rates::RATE_TABLES;
 use crate::experiment::reproduce::{PAGES, Part, ReproduceJob, TimingPlan, keep, text};
 use crate::measure::write;
 
@@ -32,6 +34,7 @@ const REPEATS: u32 = 3;
   depthleap reproduce --data volumes -o out
   depthleap reproduce --data volumes --quick -o out
   depthleap reproduce --data volumes --parts times --directions 12 --repeats 5 -o out
+  depthleap reproduce --data volumes --parts times --papers heidrich95 -o out
   depthleap reproduce -o out                         the papers' numbers alone")]
 pub struct ReproduceCommand {
     /// Folder with the volumes, by their names: engine_256cube.nrrd, fuel.nrrd, foot_cadaver.nrrd; mri_head.nrrd and
@@ -48,6 +51,9 @@ pub struct ReproduceCommand {
     /// What to do; frames that are timed take long on a device that is a CPU
     #[arg(long, value_enum, value_name = "PART,...", value_delimiter = ',', default_value = "counts,times,figures")]
     parts: Vec<Part>,
+    /// Papers whose frames are timed [default: all of them]
+    #[arg(long, value_name = "PAPER,...", value_delimiter = ',', value_parser = papers(), ignore_case = true)]
+    papers: Option<Vec<String>>,
     /// Directions that frames are timed from, once around the volume
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, value_parser = clap::value_parser!(u32).range(1..=360))]
     directions: u32,
@@ -58,11 +64,21 @@ pub struct ReproduceCommand {
     device: DeviceOptions,
 }
 
+/// The names of papers that publish frame rates.
+fn papers() -> PossibleValuesParser {
+    PossibleValuesParser::new(RATE_TABLES.map(|table| PossibleValue::new(table.paper)))
+}
+
 impl ReproduceCommand {
     pub fn run(&self) -> Result<()> {
         write::check_folder(&self.output)?;
-        let timing =
-            TimingPlan { sizes: None, directions: self.directions, repeats: self.repeats as usize, sweep: !self.quick };
+        let timing = TimingPlan {
+            papers: self.papers.clone(),
+            sizes: None,
+            directions: self.directions,
+            repeats: self.repeats as usize,
+            sweep: !self.quick,
+        };
         let job = ReproduceJob { data: self.data.clone(), parts: self.parts.clone(), quick: self.quick, timing };
         let progress = Progress::new();
         let counted = job.run(&Host {

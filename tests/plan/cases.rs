@@ -46,7 +46,8 @@ fn layered(method: MethodName, form: Option<Form>) -> Plan {
 /// Shells, with an opaque mesh where `meshed`.
 fn shells(mode: ShellMode, meshed: bool) -> Plan {
     let mut settings = settings(method::SHELLS.name());
-    (settings.shells.mode, settings.shells.count, settings.shells.a) = (Some(mode), 3, 0.5);
+    (settings.shells.mode, settings.shells.count) = (Some(mode), 3);
+    settings.shells.a = if mode == ShellMode::Surface { 0.0 } else { 0.5 };
     let mesh = || MeshSettings { builtin: Some("box".to_owned()), ..MeshSettings::default() };
     settings.meshes = meshed.then(mesh).into_iter().collect();
     plan(&scene(&settings), None).unwrap()

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::FigureRecord;
-use super::data::{DataFolder, LEFT_OUT};
+use super::data::DataFolder;
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::measure::Picture;
@@ -51,8 +51,8 @@ fn built_in(checked: Option<&Checked>, row: &BuiltinScene, data: DataFolder, hos
     let name = format!("builtin:{}", row.name);
     let figure = record(row.name, row.about, row.source);
     let absent = |why: String| Ok((FigureRecord { absent: Some(why), ..figure.clone() }, None));
-    if !data.wanted {
-        return absent(LEFT_OUT.to_owned());
+    if let Some(why) = data.left_out {
+        return absent(why.to_owned());
     }
     let Some(checked) = checked else {
         return absent(format!("no volume is there, so that no device was opened; `depthleap render {name}` draws it"));

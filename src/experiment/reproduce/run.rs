@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::data::DataFolder;
+use super::data::{DataFolder, LEFT_OUT};
 use super::figures::{self, DrawnFigure};
 use super::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
 use super::rates::{RATE_TABLES, TimingPlan, file_of, time_rates};
@@ -111,7 +111,10 @@ impl ReproduceJob {
         let times = self.data(Part::Times);
         let counted = DATA_SETS.iter().any(|set| self.file(set).is_ok());
         counted
-            || RATE_TABLES.iter().flat_map(|table| table.sets).any(|set| file_of(set, times).is_ok())
+            || RATE_TABLES.iter().any(|table| {
+                let times = self.timing.of(table, times);
+                table.sets.iter().any(|set| file_of(set, times).is_ok())
+            })
             || figures::any_volume(self.data(Part::Figures))
     }
 
@@ -145,12 +148,9 @@ impl ReproduceJob {
         self.data(Part::Counts).volume(name)
     }
 
-    fn wants(&self, part: Part) -> bool {
-        self.parts.contains(&part)
-    }
-
     fn data(&self, part: Part) -> DataFolder<'_> {
-        DataFolder { folder: self.data.as_deref(), wanted: self.wants(part) }
+        let left_out = (!self.parts.contains(&part)).then_some(LEFT_OUT);
+        DataFolder { folder: self.data.as_deref(), left_out }
     }
 }
 

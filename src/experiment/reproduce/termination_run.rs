@@ -53,6 +53,7 @@ pub fn time_termination(
     plan: &TimingPlan,
     host: &Host,
 ) -> Result<ReproducedSet> {
+    let data = plan.of(&STEGMAIER, data);
     let file = file_of(engine(), data);
     let mut column = ReproducedSet {
         name: engine().name.to_owned(),

@@ -36,7 +36,7 @@ fn checked(device: &Arc<Device>) -> Checked {
 }
 
 fn times(device: &Arc<Device>) {
-    let timing = TimingPlan { sizes: Some(vec![16, 24]), directions: 2, repeats: 2, sweep: true };
+    let timing = TimingPlan { papers: None, sizes: Some(vec![16, 24]), directions: 2, repeats: 2, sweep: true };
     let folder = tempfile::tempdir().unwrap();
     for file in TIMED {
         std::os::unix::fs::symlink(data(file), folder.path().join(file)).unwrap();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::super::data::DataFolder;
+use super::super::data::{DataFolder, PAPER_LEFT_OUT};
 use super::super::{CountedSet, ReproducedSet, Variant};
 use super::{DISTANCE, FOV, RATE_TABLES, RateSet, RateTable, TimedChoice, tilted};
 use crate::error::Result;
@@ -16,6 +16,8 @@ use crate::scene::{Camera, Scene};
 /// How much is timed.
 #[derive(Clone, Debug)]
 pub struct TimingPlan {
+    /// The papers whose frames are timed, as reports cite them in any case; none for all of them.
+    pub papers: Option<Vec<String>>,
     /// Sides of the square viewports of the frame rates, pixels; none for those of each table.
     pub sizes: Option<Vec<u32>>,
     /// Directions that a volume is seen from, once around.
@@ -29,6 +31,13 @@ pub struct TimingPlan {
 impl TimingPlan {
     fn sizes<'a>(&'a self, table: &'a RateTable) -> &'a [u32] {
         self.sizes.as_deref().unwrap_or(table.sizes)
+    }
+
+    /// The folder of the volumes as a table sees it.
+    pub fn of<'a>(&self, table: &RateTable, data: DataFolder<'a>) -> DataFolder<'a> {
+        let named = |papers: &Vec<String>| papers.iter().any(|paper| paper.eq_ignore_ascii_case(table.paper));
+        let left_out = self.papers.as_ref().is_some_and(|papers| !named(papers)).then_some(PAPER_LEFT_OUT);
+        DataFolder { left_out: data.left_out.or(left_out), ..data }
     }
 
     /// The viewport of a table in which influences are shown, since frames cost the least there.
@@ -50,6 +59,7 @@ pub fn time_rates(
 ) -> Result<Vec<CountedSet>> {
     let mut all = Vec::new();
     for table in RATE_TABLES {
+        let data = plan.of(table, data);
         let mut columns: Vec<CountedSet> = table.sets.iter().map(|set| (untimed(table, set, data), None)).collect();
         if let Some(checked) = checked {
             let timing = Timing { table, checked, data, plan, host };
