@@ -108,6 +108,11 @@ pub fn takes(name: MethodName, scene: &Scene) -> bool {
     find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
+/// Whether the picture of the method of that name is made of samples.
+pub fn takes_samples(name: MethodName) -> bool {
+    find(name).is_none_or(Method::takes_samples)
+}
+
 /// The names of all methods, in their order, behind that of the choice among them.
 const NAMES: [&str; METHODS.len() + 1] = {
     let mut names = [MethodName::AUTO.name(); METHODS.len() + 1];

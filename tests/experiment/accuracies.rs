@@ -102,6 +102,7 @@ fn point(step: f64, error: f64, ms: f64) -> Point {
     Point {
         step,
         samples_per_pass: 8,
+        shells: None,
         max: Some(10.0 * error),
         rmse: Some(error),
         psnr: Some(-20.0 * error.log10()),
@@ -189,6 +190,28 @@ fn files_say_what_was_found() {
     let mut empty = found;
     empty.curves.clear();
     assert_eq!((time_svgs(&empty).unwrap(), step_svgs(&empty).unwrap()), (vec![], vec![]));
+}
+
+#[test]
+fn shells_are_told_by_their_number() {
+    let mut found = found();
+    for (point, count) in found.curves[1].points.iter_mut().zip([4, 8, 16]) {
+        (point.step, point.shells, point.samples_per_pass) = (1.0 / f64::from(count), Some(count), 0);
+    }
+    let fitted: Vec<(f64, f64)> = found.curves[1].points.iter().map(|p| (p.step, p.rmse.unwrap())).collect();
+    found.curves[1].order = fit(&fitted);
+    let json = serde_json::to_string(&found).unwrap();
+    assert_eq!(serde_json::from_str::<Accuracy>(&json).unwrap(), found);
+    assert_eq!(json.matches("\"shells\":").count(), 3 + 2 + 1, "points of samples have none; settings are three");
+    let table = text(&found);
+    for part in ["in 1 / n over 4 to 16 shells (theory: 1)", "fragments", "midpoint with 4 of them is the fastest"] {
+        assert!(table.contains(part), "{part} is not in\n{table}");
+    }
+    let rows = csv(&found).unwrap();
+    let last = |row: usize| rows.lines().nth(row).unwrap().rsplit(',').next().unwrap().to_owned();
+    assert_eq!([0, 1, 4, 6].map(last), ["shells", "", "4", "16"], "{rows}");
+    let plots = step_svgs(&found).unwrap();
+    assert!(plots.len() == 2 && plots[0].contains("step / voxels") && plots[1].contains("1 / number of shells"));
 }
 
 /// A curve of a method in a way of sampling.

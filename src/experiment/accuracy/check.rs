@@ -1,12 +1,13 @@
 //! What is refused before a device is opened.
 
 use super::AccuracyJob;
+use super::shells;
 use super::way::with_step;
 use crate::error::{Error, Result};
 use crate::method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{MethodName, Shows};
+use crate::scene::settings::Shows;
 
 /// Whether a job can be measured, before any file is read.
 ///
@@ -17,10 +18,8 @@ pub fn check_settings(job: &AccuracyJob) -> Result<()> {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
     }
-    let has_no_steps = |method: &&MethodName| method::find(**method).is_some_and(|row| !row.takes_samples());
-    if let Some(method) = job.methods.iter().find(has_no_steps) {
-        let problem = "has no steps, by which errors are measured here";
-        return Err(Error::usage(format!("--method {method}"), problem, "leave it out, or use render and bench"));
+    if job.methods.iter().any(|method| !method::takes_samples(*method)) {
+        shells::check(&job.settings)?;
     }
     if job.settings.surface.shows != Shows::Color {
         return Err(Error::usage(
@@ -66,6 +65,14 @@ pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
     }
     for method in &job.methods {
         let row = method::of(*method)?;
+        if !row.takes_samples() {
+            for count in job.shell_numbers() {
+                let mut scene = shells::with_shells(scene, count)?;
+                scene.settings.method.name = *method;
+                plan::check(&scene)?;
+            }
+            continue;
+        }
         for step in &job.steps {
             let mut scene = scene.clone();
             with_step(&mut scene.settings, &job.settings, *step);

@@ -61,10 +61,12 @@ pub fn answers(curves: &[Curve]) -> Vec<String> {
         .into_iter()
         .map(|(name, error)| match fastest(curves, error) {
             Some((curve, point)) => format!(
-                "For an error of at most {name}, {} at a step of {} voxel{} is the fastest: {:.2} ms, largest error {:.1e}.",
+                "For an error of at most {name}, {} {} is the fastest: {:.2} ms, largest error {:.1e}.",
                 curve.name(),
-                point.step,
-                if point.step == 1.0 { "" } else { "s" },
+                match point.shells {
+                    Some(count) => format!("with {count} of them"),
+                    None => format!("at a step of {} voxel{}", point.step, if point.step == 1.0 { "" } else { "s" }),
+                },
                 point.time().unwrap_or_default(),
                 point.max.unwrap_or_default()
             ),

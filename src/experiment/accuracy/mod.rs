@@ -8,6 +8,7 @@ mod plot;
 mod question;
 mod record;
 mod run;
+mod shells;
 mod surface;
 mod text;
 mod way;

@@ -86,20 +86,28 @@ pub fn time_svgs(found: &Accuracy) -> Result<Vec<String>> {
     svgs(&panels, "time of a frame / ms")
 }
 
-/// Error against the step, with lines of the first and the second order beside. Curves that are the same are one.
+/// Error against the step, and of shells against the inverse of their number, with lines of the first and the second order beside.
+/// Curves that are the same are one.
 ///
 /// # Errors
 /// As [`time_svgs`].
 pub fn step_svgs(found: &Accuracy) -> Result<Vec<String>> {
-    let mut panels = panels(found, |of| {
-        move |point: &Point| Some(PlotPoint { x: point.step, y: of.error(point)?, range: None, ring: false })
-    });
-    for panel in &mut panels {
-        panel.series = merged(std::mem::take(&mut panel.series));
-        let orders = orders(&panel.series);
-        panel.series.extend(orders);
+    let mut plots = Vec::new();
+    for (of_shells, x) in [(false, "step / voxels"), (true, "1 / number of shells")] {
+        let mut panels = panels(found, |of| {
+            move |point: &Point| {
+                let y = of.error(point).filter(|_| point.shells.is_some() == of_shells)?;
+                Some(PlotPoint { x: point.step, y, range: None, ring: false })
+            }
+        });
+        for panel in &mut panels {
+            panel.series = merged(std::mem::take(&mut panel.series));
+            let orders = orders(&panel.series);
+            panel.series.extend(orders);
+        }
+        plots.extend(svgs(&panels, x)?);
     }
-    svgs(&panels, "step / voxels")
+    Ok(plots)
 }
 
 fn svgs(panels: &[Panel], x: &'static str) -> Result<Vec<String>> {

@@ -32,7 +32,7 @@ pub struct Accuracy {
     pub picture: Option<String>,
 }
 
-/// A method with one way of sampling, by its steps.
+/// A method with one way of sampling, by its steps, or shells by their number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     pub method: String,
@@ -70,13 +70,16 @@ pub struct Fit {
     pub points: usize,
 }
 
-/// A picture of one step.
+/// A picture of one step, or of so many shells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Voxels of the finest spacing.
+    /// Voxels of the finest spacing; of shells the part of the scalar range from level to level, the inverse of their number.
     pub step: f64,
-    /// M, so that a pass goes about as far along a ray whatever the step.
+    /// M, so that a pass goes about as far along a ray whatever the step; 0 of shells.
     pub samples_per_pass: u32,
+    /// The number of shells; absent where samples are taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shells: Option<u32>,
     /// Largest and root mean squared difference of a channel; null where it is not finite.
     pub max: Option<f64>,
     pub rmse: Option<f64>,
@@ -87,7 +90,7 @@ pub struct Point {
     /// Milliseconds of a frame: median, least, most, median absolute deviation, and how many were timed.
     pub ms: Option<[f64; 4]>,
     pub timed: usize,
-    /// Samples that the main fragments take, those beyond the end of a ray included.
+    /// Samples that the main fragments take, those beyond the end of a ray included; of shells the fragments.
     pub samples: u64,
     /// No other picture is both faster and nearer to the truth.
     pub pareto: bool,

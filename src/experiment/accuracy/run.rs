@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::check::{check_scene, check_settings};
+use super::shells;
 use super::surface::{ExactSurface, SurfacePictures, exact, shows_only, surface_error, surface_orders};
 use super::way::{Way, with_step};
 use super::{Accuracy, Curve, FORMAT, Point, SurfaceError, expected_order, fit, mark_pareto, remarks, remarks_on_all};
@@ -29,6 +30,8 @@ pub struct AccuracyJob {
     pub methods: Vec<MethodName>,
     /// Voxels.
     pub steps: Vec<f64>,
+    /// Numbers of shells, of methods that take no samples.
+    pub shell_counts: Vec<u32>,
     /// Every way of sampling by every method.
     pub full: bool,
     /// Frames timed for each picture.
@@ -69,10 +72,15 @@ impl AccuracyJob {
         let asked = Asked { checked: &checked, scene: &scene, own: Way::of(settings), truth: &truth, surface, opaque };
         let (ways, left_out) = self.ways(&asked);
         let mut curves = Vec::new();
+        let sampled = self.sampled();
         for (i, way) in ways.iter().enumerate() {
-            let methods = if self.full || i < for_all(&scene) { &self.methods[..] } else { &self.methods[..1] };
+            let count = if self.full || i < for_all(&scene) { sampled.len() } else { 1 };
             (host.say)(&format!("{} of {} ways of sampling", i + 1, ways.len()));
-            curves.extend(self.curves(&asked, *way, methods)?);
+            curves.extend(self.curves(&asked, *way, &sampled[..count.min(sampled.len())])?);
+        }
+        for name in self.methods.iter().copied().filter(|name| !method::takes_samples(*name)) {
+            (host.say)(&format!("{name} by their number"));
+            curves.push(self.shell_curve(&asked, name)?);
         }
         mark_pareto(&mut curves);
         let mut remarks = remarks_on_all(&scene);
@@ -94,8 +102,14 @@ impl AccuracyJob {
         Ok((found, truth))
     }
 
+    /// The methods that take samples.
+    fn sampled(&self) -> Vec<MethodName> {
+        self.methods.iter().copied().filter(|name| method::takes_samples(*name)).collect()
+    }
+
     /// The ways of sampling in which the scene can be drawn, its own first; and in words which ones cannot be.
     fn ways(&self, asked: &Asked) -> (Vec<Way>, Option<String>) {
+        let Some(first) = self.sampled().first().copied() else { return (Vec::new(), None) };
         let Asked { scene, own, checked, .. } = *asked;
         let mut ways = match scene.surface {
             Some(_) => Way::of_surfaces(own),
@@ -111,7 +125,7 @@ impl AccuracyJob {
             let mut scene = scene.clone();
             way.apply(&mut scene.settings);
             with_step(&mut scene.settings, &self.settings, shortest);
-            let method = MethodSettings { name: self.methods[0], ..scene.settings.method.clone() };
+            let method = MethodSettings { name: first, ..scene.settings.method.clone() };
             // What is wrong with the scene's own way is an error when it is run.
             let drawn = *way == own || Runner::new(Some(checked), scene, String::new()).check(&[method]).is_ok();
             left_out.extend((!drawn).then(|| way.words(own)));
@@ -154,6 +168,30 @@ impl AccuracyJob {
             curve.surface = surface_orders(&scene, &curve.points);
         }
         Ok(curves)
+    }
+}
+
+impl AccuracyJob {
+    /// Shells by their number.
+    fn shell_curve(&self, asked: &Asked, name: MethodName) -> Result<Curve> {
+        let (checked, scene) = (asked.checked, asked.scene);
+        let mut curve = Curve {
+            expected: Some(shells::EXPECTED_ORDER),
+            remarks: vec![shells::REMARK.to_owned()],
+            ..curve(asked, asked.own, scene, name)
+        };
+        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
+        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
+        for count in self.shell_numbers() {
+            let mut runner = Runner::new(Some(checked), shells::with_shells(scene, count)?, String::new());
+            for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
+                let point = point(1.0 / f64::from(count), 0, &one, asked.truth, clock)?;
+                curve.points.push(Point { shells: Some(count), ..point });
+            }
+        }
+        let errors: Vec<(f64, f64)> = curve.points.iter().filter_map(|p| Some((p.step, p.rmse?))).collect();
+        curve.order = fit(&errors);
+        Ok(curve)
     }
 }
 
@@ -227,6 +265,7 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
     Ok(Point {
         step,
         samples_per_pass,
+        shells: None,
         max: finite(error.max),
         rmse: finite(error.rmse),
         psnr: error.psnr,

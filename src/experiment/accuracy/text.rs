@@ -13,6 +13,10 @@ pub(super) fn table(curve: &Curve) -> Table {
     let surface = ["places", "normals / rad", "colours", "missed"].map(Column::numbers);
     let has_surface = has_surface(curve);
     let mut columns = heads.map(Column::numbers).to_vec();
+    if curve.is_of_shells() {
+        columns[0] = Column::numbers("shells");
+        columns[6] = Column::numbers("fragments");
+    }
     columns.extend(surface.into_iter().filter(|_| has_surface));
     let mut table = Table::new(columns);
     for point in &curve.points {
@@ -40,7 +44,7 @@ fn cells(point: &Point) -> [String; 7] {
     let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
     let front = if point.pareto { " *" } else { "" };
     [
-        format!("{}", point.step),
+        point.shells.map_or_else(|| point.step.to_string(), |count| count.to_string()),
         error(point.max),
         error(point.rmse),
         number(point.psnr, 1),
@@ -53,7 +57,16 @@ fn cells(point: &Point) -> [String; 7] {
 /// `order 1.02 over steps 2 to 0.125 (theory: 1)`.
 pub(super) fn order(curve: &Curve) -> String {
     let theory = curve.expected.map_or("theory gives none".to_owned(), |order| format!("theory: {order}"));
-    fitted(curve.order.as_ref(), &theory)
+    match &curve.order {
+        Some(fit) if curve.is_of_shells() => {
+            let [few, many] = fit.steps.map(|part| (1.0 / part).round());
+            format!("order {:.2} in 1 / n over {few} to {many} shells ({theory})", fit.order)
+        }
+        None if curve.is_of_shells() => {
+            format!("no order: the error does not fall with the number of shells ({theory})")
+        }
+        fit => fitted(fit.as_ref(), &theory),
+    }
 }
 
 /// The orders of a surface's errors, a line each; none where there is no surface.
@@ -112,7 +125,9 @@ pub fn csv(found: &Accuracy) -> Result<String> {
     let head = "method,variation,step,samples_per_pass,error_max,error_rmse,error_psnr,ssim,ms,ms_min,ms_max,ms_mad,ms_n,samples,pareto,order,expected_order";
     let of_surface = "position_rmse,normal_rmse,color_rmse,missed,surface_pixels,position_order,normal_order,color_order,expected_position_order";
     let has_surface = found.curves.iter().any(has_surface);
+    let has_shells = found.curves.iter().any(Curve::is_of_shells);
     let heads = head.split(',').chain(of_surface.split(',').filter(|_| has_surface));
+    let heads = heads.chain(has_shells.then_some("shells"));
     let mut table = Table::new(heads.map(Column::words).collect());
     let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for curve in &found.curves {
@@ -138,6 +153,7 @@ pub fn csv(found: &Accuracy) -> Result<String> {
                 some(curve.expected),
             ];
             row.extend(surface_fields(curve, point).into_iter().filter(|_| has_surface));
+            row.extend(has_shells.then(|| point.shells.map(|count| count.to_string()).unwrap_or_default()));
             table.row(row);
         }
     }

@@ -18,6 +18,7 @@ pub fn tests() -> Vec<Test> {
     vec![
         test("accuracy finds the orders of theory", orders),
         test("accuracy measures places, normals and colours of surfaces", surfaces),
+        test("accuracy finds the order of shells in their number", shells),
         test("accuracy leaves out what cannot be drawn of a surface", nearest),
         test("accuracy measures what is asked for", asked_for),
         test("accuracy refuses what it cannot measure", refused),
@@ -116,6 +117,26 @@ fn surfaces(_: &Arc<Device>) {
     }
 }
 
+fn shells(_: &Arc<Device>) {
+    for mode in ["max", "sum"] {
+        let place = Place::new();
+        let options = "--viewport 40x32 --steps 1 --shell-counts 16,4,8,4 --repeats 1 --range 0,1";
+        let of = format!("accuracy builtin:gaussian:40 --shells {mode} --method shells,rc --last partial {options}");
+        let said = place.done(&format!("{of} --validate -o out")).text();
+        let found = read(&place);
+        let curve = curve(&found, "shells");
+        let counts: Vec<Option<u32>> = curve.points.iter().map(|point| point.shells).collect();
+        assert_eq!(counts, [4, 8, 16].map(Some), "each once");
+        let order = curve.order.as_ref().unwrap_or_else(|| panic!("{mode}: {:?}", curve.points)).order;
+        println!("{mode}: {order:.3}");
+        assert_eq!(curve.expected, Some(1.0));
+        assert!((order - 1.0).abs() < 0.4, "{mode} has the order {order}");
+        assert!(curve.points.iter().all(|point| point.samples > 0 && point.time().is_some()), "{:?}", curve.points);
+        assert!(found.curves.iter().any(|curve| curve.method == "rc" && !curve.is_of_shells()));
+        assert!(said.contains("in 1 / n over 4 to 16 shells (theory: 1)"), "{said}");
+    }
+}
+
 fn nearest(_: &Arc<Device>) {
     let place = Place::new();
     let options =
@@ -136,5 +157,17 @@ fn refused(_: &Arc<Device>) {
     place.refused("accuracy builtin:shells:16 --method cpu -o out", 2, &["--method cpu", "no frame time"]);
     place.refused("accuracy builtin:shells:16 --steps 1,0 -o out", 2, &["--step"]);
     place.refused("accuracy builtin:shells:16 --steps 1,nan -o out", 2, &["--step"]);
+    let shells = "accuracy builtin:gaussian:16 --method shells";
+    for (options, said) in [
+        ("--shells surface", "nothing to do with their number"),
+        ("--shells max --shell-levels 0.5", "--shell-counts"),
+        ("--shells sum --shell-sum crossings", "goes to no integral"),
+        ("--shells max --shell-a 0.5", "depth cue"),
+        ("--shells max --shell-counts 4,0", "shells.count"),
+        ("--shells max --shell-counts 1000", "shells.count"),
+        ("", "--shells max"),
+    ] {
+        place.refused(&format!("{shells} {options} -o out"), 2, &[said]);
+    }
     place.refused("accuracy missing.nrrd -o out", 3, &["missing.nrrd"]);
 }
