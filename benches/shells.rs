@@ -1,14 +1,21 @@
-//! How long marching cubes takes for a level, in CPU time of the process (all threads), beside VTK's two ways where Python has the
-//! package `vtk` (`pip install vtk`): the same voxels and levels.
+//! How long marching cubes takes for a level on the host, in CPU time of the process (all threads), beside VTK's two ways where Python has
+//! the package `vtk` (`pip install vtk`): the same voxels and levels; and, of the shell that is closed at the volume's faces, on the host
+//! beside compute shaders, in CPU time too on a device that is a CPU, else in device time. Those who are compared take turns.
 //!
-//! `cargo bench --bench shells`. Without `../shared/data` it runs on a built-in volume.
+//! `cargo bench --bench shells`. Without a device that part is left out; without `../shared/data` it runs on a built-in volume.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
 use cpu_time::ProcessTime;
+use depthleap::frame::Resident;
+use depthleap::method::SHELLS;
+use depthleap::plan::{Choice, plan_for};
+use depthleap::scene::settings::ShellMode;
 use depthleap::scene::shells::{Faces, polygons};
-use depthleap::scene::{Field, Settings};
+use depthleap::scene::{Field, Scene, Settings};
+use depthleap::vulkan::{Device, Instance, pick};
 use depthleap::{Result, read};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
@@ -25,35 +32,82 @@ fn main() -> Result<()> {
         .map(|(file, level)| (Path::new(DATA).join(file), *level))
         .filter(|(path, _)| path.exists())
         .collect();
+    let device = open();
+    if let Err(reason) = &device {
+        println!("no compute shaders beside the host: {reason}");
+    }
+    let device = device.ok();
     if present.is_empty() {
-        let mut settings = Settings::default();
-        settings.volume.builtin = Some("jets:256".to_owned());
-        return time("jets:256", &read::scene(&settings)?.field, 0.5);
+        let scene = scene(0.5, |s| s.volume.builtin = Some("jets:256".to_owned()))?;
+        return time("jets:256", &scene, 0.5, device.as_ref());
     }
     for (path, level) in present {
-        let mut settings = Settings::default();
-        settings.volume.path = Some(path.clone());
-        time(&path.file_stem().unwrap_or_default().to_string_lossy(), &read::scene(&settings)?.field, level)?;
+        let scene = scene(level, |s| s.volume.path = Some(path.clone()))?;
+        time(&path.file_stem().unwrap_or_default().to_string_lossy(), &scene, level, device.as_ref())?;
     }
     Ok(())
 }
 
-/// Prints the median CPU times.
-fn time(name: &str, field: &Field, level: f64) -> Result<()> {
-    let mut ours = Vec::new();
-    let mut triangles = 0;
+fn open() -> Result<Arc<Device>> {
+    let instance = Instance::new(false)?;
+    let (info, _) = pick(&instance.devices()?, None)?;
+    println!("{}, {} {}", info.name, info.driver_name, info.driver_info);
+    Device::new(&instance, &info, false)
+}
+
+/// A scene of one shell.
+fn scene(level: f64, volume: impl FnOnce(&mut Settings)) -> Result<Scene> {
+    let mut settings = Settings::default();
+    volume(&mut settings);
+    settings.method.name = SHELLS.name();
+    (settings.shells.mode, settings.shells.shell_levels) = (Some(ShellMode::Max), vec![level]);
+    read::scene(&settings)
+}
+
+/// Prints the median times.
+fn time(name: &str, scene: &Scene, level: f64, device: Option<&Arc<Device>>) -> Result<()> {
+    let (field, x) = (&scene.field, scene.field.x(level));
+    let (mut ours, mut triangles) = (Vec::new(), 0);
     for _ in 0..RUNS {
-        let begin = ProcessTime::now();
-        triangles = std::hint::black_box(polygons(field, field.x(level), Faces::Open)?).triangles.len();
-        ours.push(begin.elapsed().as_secs_f64() * 1e3);
+        let (made, ms) = host(field, x, Faces::Open)?;
+        (triangles, ours) = (made, [ours, vec![ms]].concat());
     }
-    ours.sort_by(f64::total_cmp);
-    println!("{name} at {level}: {triangles} triangles, {:.1} ms CPU, median of {RUNS}", ours[RUNS / 2]);
+    println!("{name} at {level}: {triangles} triangles, {:.1} ms CPU, median of {RUNS}", median(ours));
     match peers(field, level) {
         Ok(lines) => lines.lines().for_each(|line| println!("  {line}")),
         Err(reason) => println!("  no peer beside it: {reason}"),
     }
+    let Some(device) = device else { return Ok(()) };
+    let mut resident = Resident::new(device);
+    let plan = plan_for(scene, Choice::default())?;
+    let [mut on_host, mut computed] = [Vec::new(), Vec::new()];
+    // The first ones warm up.
+    for run in 0..=RUNS {
+        resident.forget_scene();
+        resident.prepare(scene, &plan)?;
+        let (made, ms) = host(field, x, Faces::Closed)?;
+        if let Some([built, _]) = resident.build_ms(&plan).filter(|_| run > 0) {
+            (triangles, on_host, computed) = (made, [on_host, vec![ms]].concat(), [computed, vec![built]].concat());
+        }
+    }
+    let [on_host, computed] = [on_host, computed].map(median);
+    println!(
+        "  closed: {triangles} triangles, {on_host:.1} ms on the host, {computed:.1} ms by compute shaders ({:.2} of it)",
+        computed / on_host
+    );
     Ok(())
+}
+
+/// Triangles that the host makes, and the CPU time that takes, milliseconds.
+fn host(field: &Field, x: f32, faces: Faces) -> Result<(usize, f64)> {
+    let begin = ProcessTime::now();
+    let triangles = std::hint::black_box(polygons(field, x, faces)?).triangles.len();
+    Ok((triangles, begin.elapsed().as_secs_f64() * 1e3))
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times.get(times.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// What the peers print, of the same voxels in f32.

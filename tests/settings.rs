@@ -20,7 +20,6 @@ const WITHOUT_OPTION: [(&str, &str); 14] = [
     ("effects.translucency", "--translucency gives its absorption"),
     ("effects.file", "--effect names it"),
     ("effects.hash", "runs note it"),
-    ("shells.disabled", "--shell-levels names those that are left"),
     ("method.name", "--method is a list in some commands, and so stands in each of them"),
 ];
 

@@ -291,6 +291,21 @@ fn a_level_that_changes_leaves_the_other_shells() {
     assert!(std::sync::Arc::ptr_eq(&fewer.list[1].mesh, &after.list[2].mesh));
 }
 
+#[test]
+fn depths_that_hardly_differ_are_warned_of() {
+    let warned = |a: f64, eye: [f64; 3]| {
+        let scene = scene("gaussian:16", ShellMode::Max, |s| {
+            (s.shells.a, s.meshes, s.camera.eye) = (a, vec![cuboid(1.0)], eye);
+            s.camera.target = [0.3, 0.1, -0.4];
+        });
+        let warnings = plan::warnings(&scene, &plan::plan(&scene, None).unwrap());
+        warnings.iter().any(|warning| warning.contains("--shell-a"))
+    };
+    let (outside, within) = ([0.5, 0.7, 1.4], [0.1, 0.05, 0.2]);
+    assert_eq!([1e-3, 1e-5].map(|a| warned(a, outside)), [false, true]);
+    assert_eq!([1.0, 1e-3].map(|a| warned(a, within)), [false, true]);
+}
+
 /// Words of the message.
 fn refused(settings: &Settings) -> String {
     let error = match read::scene(settings) {

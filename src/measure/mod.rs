@@ -16,7 +16,7 @@ mod frame_times;
 pub mod law;
 pub mod limits;
 pub mod measured;
-mod notes;
+pub mod notes;
 pub mod picture;
 pub mod ply;
 pub mod record;

@@ -30,6 +30,12 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 
+/// The triangles in a note of [`polygons_of_shells`]; none in another note.
+pub fn triangles_in(note: &str) -> Option<u64> {
+    let (_, triangles) = note.strip_suffix(" triangles")?.split_once(" shells of ")?;
+    triangles.parse().ok()
+}
+
 /// How many polygons a frame of shells draws.
 pub(super) fn polygons_of_shells(scene: &Scene, plan: &Plan) -> Option<String> {
     let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples())?;

@@ -4,7 +4,8 @@ use super::Plan;
 use crate::projection;
 use crate::scene::mesh::ClipMesh;
 use crate::scene::range::RangeEnd;
-use crate::scene::settings::{Accumulate, Filter, Find, VolumeTexture};
+use crate::scene::settings::{Accumulate, Filter, Find, ShellMode, VolumeTexture};
+use crate::scene::shells::ShellDepth;
 use crate::scene::texture::{TextureChoice, Within};
 use crate::scene::view::View;
 use crate::scene::{ClipPlanes, Scene};
@@ -23,6 +24,7 @@ pub fn warnings(scene: &Scene, plan: &Plan) -> Vec<String> {
     warnings.extend(shells.flat_map(|shells| shells.warnings(&scene.field)));
     warnings.extend(empty(scene, plan));
     warnings.extend(black(scene, plan));
+    warnings.extend(not_told_apart(scene, plan));
     warnings.extend(plan.texture.and_then(|_| imprecise(scene, &TextureChoice::of(scene))));
     warnings.extend(rounded_beside_gradients(scene));
     warnings.extend(plan.method.on_device.then(|| out_of_format(scene, plan)).flatten());
@@ -128,6 +130,9 @@ fn no_shell(scene: &Scene) -> String {
 /// That all shells are black.
 fn black(scene: &Scene, plan: &Plan) -> Option<String> {
     let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples() && plan.passes > 0)?;
+    if shells.mode == ShellMode::Surface {
+        return None;
+    }
     let settings = &scene.settings.shells;
     let why = match () {
         () if shells.list.iter().all(|shell| shell.emission == 0.0) => {
@@ -141,10 +146,31 @@ fn black(scene: &Scene, plan: &Plan) -> Option<String> {
     Some(format!("the picture is black: {why}"))
 }
 
+/// How near to each other a shell and a surface may lie, in volume space, before it is of interest that none is told to be in front.
+const HARDLY_APART: f64 = 1e-3;
+
+/// That depths of shells and of surfaces among them hardly differ, where depth is brightness.
+fn not_told_apart(scene: &Scene, plan: &Plan) -> Option<String> {
+    let among = scene.settings.shells.mode == Some(ShellMode::Max) && !scene.polygons.opaque().is_empty();
+    if !among || plan.method.takes_samples() || plan.passes == 0 {
+        return None;
+    }
+    let apart = ShellDepth::of(scene, &plan.view.rays)?.told_apart();
+    (apart > HARDLY_APART).then(|| {
+        format!(
+            "surfaces may show through shells, or the other way round: at the far end of the volume they are told apart from {apart:.1e} of its \
+             longest side on alone; give a larger shells.a (--shell-a), or move the eye out of the volume"
+        )
+    })
+}
+
 /// That no value is on any surface of a scene.
 fn no_surface(scene: &Scene) -> String {
     let (field, surface) = (&scene.field, &scene.settings.surface);
-    let asked: Vec<String> = surface.asked().iter().map(|level| level.iso.to_string()).collect();
+    let of_shell = scene.shells.as_ref().filter(|shells| shells.mode == ShellMode::Surface);
+    let asked =
+        surface.asked().into_iter().map(|level| level.iso).chain(of_shell.and_then(|shells| shells.outermost()));
+    let asked: Vec<String> = asked.map(|iso| iso.to_string()).collect();
     let [least, most] = field.value_extremes().unwrap_or(field.range);
     let asked = asked.join(", ");
     let values = match least == most {

@@ -2,7 +2,7 @@
 
 use super::embedded_rows::embedded_ratio;
 use super::papers::{DataSet, PaperRow};
-use super::rates::{RATE_TABLES, absent_rates, present_rates, rates_sweep, rates_table};
+use super::rates::{RATE_TABLES, absent_rates, present_rates, rate_remarks, rates_sweep, rates_table};
 use super::rows::ratio;
 use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::text::{KINDS, absent, kind_of_fragments, open_choices, percent, present};
@@ -76,8 +76,7 @@ fn timed_sections(page: &mut Html, timed: &TimedRecord, pictures: Pictures) {
         page.raw("<section>\n");
         page.tag("h2", rates.title);
         page.raw(&format!("<p class=\"sub\">{}, Table 1</p>\n", escape(rates.paper)));
-        let remarks = present_rates(timed, rates).filter_map(|(set, _)| Some(format!("{}: {}", set.name, set.remark?)));
-        page.list(&remarks.collect::<Vec<_>>());
+        page.list(&rate_remarks(timed, rates));
         page.raw("<div class=\"pictures\">");
         for (set, column) in present_rates(timed, rates) {
             let Some(file) = &column.picture else { continue };

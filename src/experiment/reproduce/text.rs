@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::embedded::Geometry;
 use super::embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 use super::papers::{DATA_SETS, DataSet, OPEN};
-use super::rates::{RATE_TABLES, absent_rates, present_rates, rates_sweep, rates_table};
+use super::rates::{RATE_TABLES, absent_rates, rate_remarks, rates_sweep, rates_table};
 use super::rows::{lines, verdict};
 use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::{FragmentLine, ReproducedSet, Reproduction, TimedRecord};
@@ -148,9 +148,7 @@ fn timed_text(timed: &TimedRecord) -> String {
     for rates in RATE_TABLES {
         let Some((table, said)) = rates_table(timed, rates) else { continue };
         let _ = writeln!(out, "{} ({}, Table 1)", rates.title, rates.paper);
-        for (set, remark) in present_rates(timed, rates).filter_map(|(set, _)| Some((set, set.remark?))) {
-            let _ = writeln!(out, "  {}: {remark}", set.name);
-        }
+        rate_remarks(timed, rates).iter().for_each(|remark| out += &format!("  {remark}\n"));
         out += &table.text(&layout);
         said.iter().for_each(|said| out += &format!("    {said}\n"));
         if let Some(sweep) = rates_sweep(timed, rates) {

@@ -34,7 +34,7 @@ section! {
 
     /// Shells that are left out for now, by their numbers from 1 on, dimmest first
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[arg(skip)]
+    #[arg(long = "shell-disabled", value_name = "NUMBER,...", value_delimiter = ',', allow_negative_numbers = true, action = clap::ArgAction::Set)]
     disabled: Vec<u32> = Vec::new();
 
     /// beta0 of the depth cue beta0 + a z + b: the brightness that every depth has

@@ -69,6 +69,15 @@ impl ShellDepth {
         }
     }
 
+    /// How far apart two places at the far end must lie, in depth, for single precision to tell them apart where depth is brightness.
+    pub fn told_apart(&self) -> f64 {
+        let rise = match self.lens {
+            Lens::Perspective => self.stored_of_inverse() / self.far.powi(2),
+            Lens::Orthographic => -self.stored_of_depth(),
+        };
+        f64::from(f32::EPSILON) * self.beta[0] / (self.beta[1] * self.z * rise)
+    }
+
     /// How far the depth of a crossing may be off, by how far that of the depth buffer may be.
     pub fn moved(&self, crossing: &ShellCrossing) -> f64 {
         match self.lens {

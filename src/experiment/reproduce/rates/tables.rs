@@ -3,7 +3,9 @@
 use super::super::{ReproducedSet, TimedRecord};
 use super::rows::column_of;
 use super::{RATE_TABLES, RateLine, RateRatio, RateSet, RateTable, explained, rate, rate_lines, rate_verdicts};
+use crate::measure::Run;
 use crate::measure::fragment_kind::FragmentKind;
+use crate::measure::notes::triangles_in;
 use crate::measure::record::Clock;
 use crate::report::number::thousands;
 use crate::report::table::{Column, Table};
@@ -88,6 +90,21 @@ fn clock_name(clock: Clock) -> &'static str {
 
 fn is_present(timed: &TimedRecord, table: &RateTable, set: &RateSet) -> bool {
     column_of(timed, table, set).is_some_and(|column| column.absent.is_none())
+}
+
+/// What is to be said of a table's sets: of shells the polygons that were drawn as well, in the main configuration and over the sweep.
+pub fn rate_remarks(timed: &TimedRecord, table: &'static RateTable) -> Vec<String> {
+    let of = |(set, found): (&RateSet, &ReproducedSet)| {
+        let drawn = |run: &Run| run.notes.iter().find_map(|note| triangles_in(note));
+        let all: Vec<u64> = found.variants.iter().flat_map(|variant| variant.runs.iter().filter_map(drawn)).collect();
+        let polygons = all.first().map(|main| {
+            let [least, most] = [all.iter().min(), all.iter().max()].map(|n| thousands(*n.unwrap_or(main)));
+            format!("here {} triangles, over the sweep {least} to {most}", thousands(*main))
+        });
+        let said: Vec<String> = set.remark.map(str::to_owned).into_iter().chain(polygons).collect();
+        (!said.is_empty()).then(|| format!("{}: {}", set.name, said.join("; ")))
+    };
+    present_rates(timed, table).filter_map(of).collect()
 }
 
 /// Data sets of a table that were timed, each with its column.
