@@ -7,7 +7,7 @@ use depthleap::scene::settings::{Key, Settings, SettingsOptions};
 use toml::{Table, Value};
 
 /// Keys that no option of theirs sets, and why.
-const WITHOUT_OPTION: [(&str, &str); 14] = [
+const WITHOUT_OPTION: [(&str, &str); 13] = [
     ("volume.path", "the argument SCENE|VOLUME names it"),
     ("volume.builtin", "the argument SCENE|VOLUME names it"),
     ("volume.mesh", "the argument SCENE|VOLUME names it"),

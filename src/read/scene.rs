@@ -211,7 +211,11 @@ fn clip_volume(settings: &Settings, field: &Field) -> Result<Option<ClipVolume>>
     ClipVolume::new(volume, iso, keeps_inside, &placed, field.extent(), turn).map(Some)
 }
 
-fn volume(settings: &VolumeSettings) -> Result<Volume> {
+/// The volume that settings name.
+///
+/// # Errors
+/// When they name several, or it cannot be read.
+pub fn volume(settings: &VolumeSettings) -> Result<Volume> {
     let VolumeSettings { path, builtin, mesh, .. } = settings;
     let sources = [("path", path.is_some()), ("builtin", builtin.is_some()), ("mesh", mesh.is_some())];
     let given: Vec<&str> = sources.into_iter().filter_map(|(key, given)| given.then_some(key)).collect();

@@ -104,13 +104,13 @@ pub fn beside() -> bool {
 }
 
 /// One in so many that a driver takes beside another one, which takes others; the rest is left to the next scene.
-const SHARE: usize = 3;
+const SHARE: usize = 4;
 
 /// One in so many that a driver takes where others do more of everything.
 const LEAST_SHARE: usize = 12;
 
-/// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every third one, by `turn` from
-/// the first, second or third on, and the next ones on the other driver; where other drivers do more of everything every twelfth. One
+/// What this driver takes of `all` views or methods of a scene: all of them or, beside another driver, every fourth one, by `turn` from
+/// the first to the fourth on, and the next ones on the other driver; where other drivers do more of everything every twelfth. One
 /// at least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();

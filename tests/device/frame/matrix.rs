@@ -72,7 +72,7 @@ pub fn tests() -> Vec<Test> {
     tests
 }
 
-/// Every method on a scene, from outside and from within; beside other drivers, a third of the methods or fewer, from one of these sides,
+/// Every method on a scene, from outside and from within; beside other drivers, a fourth of the methods or fewer, from one of these sides,
 /// and others, or from the other side, on another driver.
 fn every_method(device: &Arc<Device>, scene: &Scene, depths: &[DepthFormat], number: usize) {
     let mut runs = Runs { device, stage: Stage::new(device), frames: 0, largest: 0.0, undecided: 0 };

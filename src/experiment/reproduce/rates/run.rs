@@ -1,5 +1,6 @@
 //! Times the frames of the frame rates: data sets in turn, from several directions.
 
+use std::cell::RefCell;
 use std::path::PathBuf;
 
 use super::super::data::{DataFolder, PAPER_LEFT_OUT};
@@ -10,8 +11,8 @@ use crate::experiment::Host;
 use crate::measure::abreast::measure_abreast;
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::read;
-use crate::scene::settings::Settings;
-use crate::scene::{Camera, Scene};
+use crate::scene::settings::{Settings, VolumeSettings};
+use crate::scene::{Camera, Scene, Volume};
 
 /// How much is timed.
 #[derive(Clone, Debug)]
@@ -62,7 +63,7 @@ pub fn time_rates(
         let data = plan.of(table, data);
         let mut columns: Vec<CountedSet> = table.sets.iter().map(|set| (untimed(table, set, data), None)).collect();
         if let Some(checked) = checked {
-            let timing = Timing { table, checked, data, plan, host };
+            let timing = Timing { table, checked, data, plan, host, volumes: RefCell::default() };
             timing.choice(&mut columns, &("main", table.main, |_| {}), plan.sizes(table))?;
             for choice in table.choices.iter().filter(|_| plan.sweep) {
                 timing.choice(&mut columns, choice, &[plan.smallest(table)])?;
@@ -80,6 +81,29 @@ struct Timing<'a> {
     data: DataFolder<'a>,
     plan: &'a TimingPlan,
     host: &'a Host<'a>,
+    volumes: RefCell<KeptVolumes>,
+}
+
+/// Volumes that were read, and what was asked for of each: choices that are made otherwise hardly ever ask for another one, and that of a
+/// mesh takes its time.
+#[derive(Default)]
+struct KeptVolumes(Vec<(VolumeSettings, Volume)>);
+
+impl KeptVolumes {
+    /// The scene of settings, whose volume is read where it is not there.
+    fn scene(&mut self, settings: &Settings) -> Result<Scene> {
+        // Voxels are the same whatever range is shown of them.
+        let asked = VolumeSettings { range: None, ..settings.volume.clone() };
+        let place = match self.0.iter().position(|(of, _)| *of == asked) {
+            Some(place) => place,
+            None => {
+                let volume = read::scene::volume(&settings.volume)?;
+                self.0.push((asked, volume));
+                self.0.len() - 1
+            }
+        };
+        read::scene_of(settings, |_| Ok(self.0[place].1.clone()))
+    }
 }
 
 impl Timing<'_> {
@@ -87,6 +111,7 @@ impl Timing<'_> {
     fn choice(&self, columns: &mut [CountedSet], (choice, value, change): &TimedChoice, sizes: &[u32]) -> Result<()> {
         let Self { table, data, plan, .. } = *self;
         let mut timed: Vec<(Scene, &mut CountedSet)> = Vec::new();
+        let mut volumes = self.volumes.borrow_mut();
         for (place, (set, column)) in table.sets.iter().zip(columns).enumerate() {
             let Some(settings) = settings_of(table, set, data, *change) else { continue };
             // What a choice leaves as it was is not timed again, but for the set that the others are told in: frames that are
@@ -98,7 +123,7 @@ impl Timing<'_> {
             }
             let variant = Variant { choice: (*choice).to_owned(), value: (*value).to_owned(), runs: Vec::new() };
             column.0.variants.push(variant);
-            timed.push((read::scene(&settings)?, column));
+            timed.push((volumes.scene(&settings)?, column));
         }
         let directions = || 0..plan.directions;
         for (size, direction) in sizes.iter().flat_map(|size| directions().map(move |direction| (*size, direction))) {
