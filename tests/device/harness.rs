@@ -114,10 +114,12 @@ const LEAST_SHARE: usize = 12;
 /// at least. Scenes that count their turns have all of them between them.
 pub fn share<T>(all: impl IntoIterator<Item = T>, turn: usize) -> Vec<T> {
     let all: Vec<T> = all.into_iter().collect();
+    // Where sides take turns too, a method would be drawn from the same ones always.
+    let shifted = turn + turn / SHARE;
     let (every, turn) = match () {
         () if least() => (LEAST_SHARE, turn),
-        () if beside() => (SHARE, turn + 1),
-        () if some_forms() => (SHARE, turn),
+        () if beside() => (SHARE, shifted + 1),
+        () if some_forms() => (SHARE, shifted),
         () => (1, 0),
     };
     let every = every.min(all.len()).max(1);
