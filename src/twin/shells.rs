@@ -117,7 +117,7 @@ impl Twin<'_> {
         let steps = (place - begin).dot(pixel.direction) / self.step_length();
         let first = pixel.hit[3] == 0.0;
         pixel.hit = [steps.max(0.0), steps.max(0.0), 0.0, 1.0];
-        pixel.cut = depth.moved(crossing) * ray.direction.length() / self.step_length() + PLACE_ROUNDING * steps.abs();
+        pixel.cut = crossing.moved(depth) * ray.direction.length() / self.step_length() + PLACE_ROUNDING * steps.abs();
         (1, u64::from(first))
     }
 
@@ -145,7 +145,7 @@ impl Twin<'_> {
             enter + surface.steps * self.step_length() / ray.direction.length()
         });
         let sign = if crossing.enters { 1.0 } else { -1.0 };
-        pixel.rounding += shell.rise * lengths * depth.cue(crossing.stored) * depth.moved(crossing);
+        pixel.rounding += shell.rise * lengths * depth.cue(crossing.stored) * crossing.moved(depth);
         sign * shell.rise * lengths * depth.between(crossing.depth, end)
     }
 }

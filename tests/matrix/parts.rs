@@ -1,10 +1,14 @@
 //! What scenes of the matrix are made of: meshes, clip geometry, lights, surfaces.
 
+use depthleap::method;
+use depthleap::part::form::Form;
+use depthleap::part::rows::Method;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     ClipSettings, GradientOperator, GradientTexture, Gradients, LightSettings, MeshSettings, Refraction,
     ShadingSettings, SurfaceLevel,
 };
+use depthleap::scene::{Camera, Scene};
 
 pub fn index(points: &[[f64; 2]]) -> Option<Refraction> {
     Some(Refraction { points: points.to_vec() })
@@ -89,3 +93,28 @@ pub fn plane(plane: [f64; 4]) -> ClipSettings {
 
 /// A value that few voxels of the volume have.
 pub const NO_DATA: f64 = 127.0;
+
+/// The scene as its camera sees it, and from within.
+pub fn views(scene: &Scene) -> [(&'static str, Scene); 2] {
+    let within =
+        Camera { eye: [0.11, 0.07, -0.13].into(), target: [-0.3, 0.2, 0.4].into(), ..(&scene.settings.camera).into() };
+    [("from outside", scene.clone()), ("from within", scene.clone().seen_by(within))]
+}
+
+/// The scene by a method.
+pub fn by(scene: &Scene, method: &Method) -> Scene {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method.name();
+    scene
+}
+
+/// The methods that draw the scene.
+pub fn methods(scene: &Scene) -> impl Iterator<Item = &'static Method> {
+    method::METHODS.into_iter().filter(|method| depthleap::plan::check(&by(scene, method)).is_ok())
+}
+
+/// Every form of a method; none stands for culling nothing.
+pub fn forms(method: &Method) -> Vec<Option<Form>> {
+    let forms = (method.forms)();
+    if forms.is_empty() { vec![None] } else { forms.into_iter().map(Some).collect() }
+}

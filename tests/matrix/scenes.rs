@@ -7,9 +7,6 @@ mod parts;
 
 use std::sync::Arc;
 
-use depthleap::method;
-use depthleap::part::form::Form;
-use depthleap::part::rows::Method;
 use depthleap::projection::{AVERAGE, MINIP, MIP, PROJECTIONS};
 use depthleap::read;
 use depthleap::scene::backdrop::Pattern;
@@ -20,10 +17,11 @@ use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Last, LightSettings, Mapping,
     MeshSettings, Offset, PartialSegments, Refine, Settings, ShellMode, ShellSum, Shows, Translucency, VolumeTexture,
 };
-use depthleap::scene::{Backdrop, Camera, Effect, Environment, Scene};
+use depthleap::scene::{Backdrop, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
 
 use parts::{JUMPS, NO_DATA, across, clip, clip_volume, cuboid, gradients, index, level, plane, sheet, two_lights};
+pub use parts::{by, forms, methods, views};
 
 type Change = fn(&mut Settings);
 
@@ -101,7 +99,8 @@ const KINDS: [(&str, Change); 82] = [
         (s.shells.mode, s.shells.beta0, s.shells.a, s.shells.count) = (Some(ShellMode::Sum), 0.2, 0.5, 2);
         (s.meshes, s.camera.height) = (vec![across(1.0)], Some(1.2));
     }),
-    ("shells, the sum of crossings, with a box among them", |s| {
+    ("shells, the sum of crossings, with a box among them, at holes", |s| {
+        (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole);
         (s.shells.mode, s.shells.sum, s.shells.a) = (Some(ShellMode::Sum), ShellSum::Crossings, 0.5);
         (s.shells.count, s.meshes) = (2, vec![across(1.0)]);
     }),
@@ -376,29 +375,4 @@ fn effects() -> [(String, Scene); 3] {
         }),
         with("an effect on an iso-surface", |s| s.surface.iso = Some(90.0)),
     ]
-}
-
-/// The scene as its camera sees it, and from within.
-pub fn views(scene: &Scene) -> [(&'static str, Scene); 2] {
-    let within =
-        Camera { eye: [0.11, 0.07, -0.13].into(), target: [-0.3, 0.2, 0.4].into(), ..(&scene.settings.camera).into() };
-    [("from outside", scene.clone()), ("from within", scene.clone().seen_by(within))]
-}
-
-/// The scene by a method.
-pub fn by(scene: &Scene, method: &Method) -> Scene {
-    let mut scene = scene.clone();
-    scene.settings.method.name = method.name();
-    scene
-}
-
-/// The methods that draw the scene.
-pub fn methods(scene: &Scene) -> impl Iterator<Item = &'static Method> {
-    method::METHODS.into_iter().filter(|method| depthleap::plan::check(&by(scene, method)).is_ok())
-}
-
-/// Every form of a method; none stands for culling nothing.
-pub fn forms(method: &Method) -> Vec<Option<Form>> {
-    let forms = (method.forms)();
-    if forms.is_empty() { vec![None] } else { forms.into_iter().map(Some).collect() }
 }

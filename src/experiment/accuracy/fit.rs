@@ -55,11 +55,41 @@ pub fn fastest(curves: &[Curve], error: f64) -> Option<(&Curve, &Point)> {
     good.min_by(|a, b| a.1.time().unwrap_or(f64::INFINITY).total_cmp(&b.1.time().unwrap_or(f64::INFINITY)))
 }
 
+/// Where shells win: with how many of them they are faster than all rays of no larger rms error, and with how many they are not.
+fn shells_beside_rays(curves: &[Curve]) -> Vec<String> {
+    let timed = |curve: &Curve| curve.points.iter().filter_map(|p| Some((p.time()?, p.rmse?))).collect::<Vec<_>>();
+    let rays: Vec<(f64, f64)> = curves.iter().filter(|curve| !curve.is_of_shells()).flat_map(timed).collect();
+    let beside = |point: &Point| {
+        let (count, ms, error) = (point.shells?, point.time()?, point.rmse?);
+        let best = rays.iter().filter(|(_, other)| *other <= error).map(|(ms, _)| *ms).reduce(f64::min);
+        let words = match best {
+            Some(best) => format!("{count} ({ms:.1} ms, rays {best:.1} ms)"),
+            None => format!("{count} ({ms:.1} ms, no rays come as near)"),
+        };
+        Some((best.is_none_or(|best| ms < best), words))
+    };
+    let told = |curve: &Curve| {
+        let (won, lost): (Vec<_>, Vec<_>) = curve.points.iter().filter_map(beside).partition(|(wins, _)| *wins);
+        let [won, lost] =
+            [won, lost].map(|those| those.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(", "));
+        let name = curve.name();
+        match (won.is_empty(), lost.is_empty()) {
+            (true, true) => None,
+            (true, false) => {
+                Some(format!("{name} win nowhere: rays of no larger rms error are faster beside {lost} of them."))
+            }
+            (false, true) => Some(format!("{name} win with all numbers of them, by rms error and time: {won}.")),
+            (false, false) => Some(format!("{name} win, by rms error and time, with {won} of them; not with {lost}.")),
+        }
+    };
+    let beside_rays = curves.iter().filter(|curve| curve.is_of_shells() && !rays.is_empty());
+    beside_rays.filter_map(told).collect()
+}
+
 /// What is asked in one line each: 1/255, which no 8-bit picture shows, and 1/1000.
 pub fn answers(curves: &[Curve]) -> Vec<String> {
-    [("1/255", 1.0 / 255.0), ("1/1000", 1e-3)]
-        .into_iter()
-        .map(|(name, error)| match fastest(curves, error) {
+    let fastest_within =
+        [("1/255", 1.0 / 255.0), ("1/1000", 1e-3)].into_iter().map(|(name, error)| match fastest(curves, error) {
             Some((curve, point)) => format!(
                 "For an error of at most {name}, {} {} is the fastest: {:.2} ms, largest error {:.1e}.",
                 curve.name(),
@@ -71,6 +101,6 @@ pub fn answers(curves: &[Curve]) -> Vec<String> {
                 point.max.unwrap_or_default()
             ),
             None => format!("No run comes within an error of {name}."),
-        })
-        .collect()
+        });
+    fastest_within.chain(shells_beside_rays(curves)).collect()
 }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
-use crate::part::resource::{Facts, Resource};
+use crate::part::resource::{Facts, Life, Resource};
 use crate::part::{Dispatch, Group, Step, Work};
 use crate::resource;
 use crate::resource::texels::Texels;
@@ -101,7 +101,8 @@ fn of_lookup(facts: &Facts, steps: impl FnOnce(&Grid, &Lookup) -> Vec<Step>) -> 
 
 /// The host makes a resource, and its bytes are uploaded.
 pub fn host(resource: Resource, group: Group) -> Step {
-    Step::new(resource.numbered(), group, 0, vec![Usage::Upload.of(resource)], Work::Host(resource))
+    let pass = if resource.of.life == Life::Shell { resource.index } else { 0 };
+    Step::new(resource.numbered(), group, pass.into(), vec![Usage::Upload.of(resource)], Work::Host(resource))
 }
 
 /// What a step of `count` invocations knows of the grid.

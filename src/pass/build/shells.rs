@@ -58,6 +58,7 @@ pub fn shell(facts: &Facts, number: u16) -> Vec<Step> {
     let reads = with_holes(vec![volume, sides, edges, sums, cases]);
     let shader = shader("structure/shell_polygons.comp");
     steps.push(dispatch(name("shell_polygons"), shader, &reads, &[polygons], all, NODES));
+    steps.iter_mut().for_each(|step| step.pass = number.into());
     steps
 }
 

@@ -1,6 +1,5 @@
 //! Where shells lie in depth: z of the depth cue, and the matrices that take it to the depth buffer [Heidrich95 §3].
 
-use super::rays::ShellCrossing;
 use crate::math::ray::{Lens, ViewRays};
 use crate::scene::Scene;
 use crate::scene::settings::ShellMode;
@@ -76,14 +75,6 @@ impl ShellDepth {
             Lens::Orthographic => -self.stored_of_depth(),
         };
         f64::from(f32::EPSILON) * self.beta[0] / (self.beta[1] * self.z * rise)
-    }
-
-    /// How far the depth of a crossing may be off, by how far that of the depth buffer may be.
-    pub fn moved(&self, crossing: &ShellCrossing) -> f64 {
-        match self.lens {
-            Lens::Perspective => crossing.spread * crossing.depth.powi(2) * (1.0 / self.nearest - 1.0 / self.far),
-            Lens::Orthographic => crossing.spread * (self.far - self.nearest),
-        }
     }
 
     /// p and q of beta = p + q / depth in perspective, of beta = p - q depth in orthographic views.

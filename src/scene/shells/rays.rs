@@ -23,6 +23,16 @@ pub struct ShellCrossing {
     pub enters: bool,
 }
 
+impl ShellCrossing {
+    /// How far its depth may be off, by how far that of the depth buffer may be.
+    pub fn moved(&self, depths: &ShellDepth) -> f64 {
+        match depths.lens {
+            Lens::Perspective => self.spread * self.depth.powi(2) * (1.0 / depths.nearest - 1.0 / depths.far),
+            Lens::Orthographic => self.spread * (depths.far - depths.nearest),
+        }
+    }
+}
+
 /// The crossings of a pixel's ray with a shell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShellCrossings {
