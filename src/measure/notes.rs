@@ -30,7 +30,7 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 
-/// The triangles in a note of [`polygons_of_shells`]; none in another note.
+/// The triangles in a note on how many polygons a frame of shells draws; none in another note.
 pub fn triangles_in(note: &str) -> Option<u64> {
     let (_, triangles) = note.strip_suffix(" triangles")?.split_once(" shells of ")?;
     triangles.parse().ok()
