@@ -32,13 +32,18 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
 
 /// The triangles in a note on how many polygons a frame of shells draws; none in another note.
 pub fn triangles_in(note: &str) -> Option<u64> {
-    let (_, triangles) = note.strip_suffix(" triangles")?.split_once(" shells of ")?;
-    triangles.parse().ok()
+    let (shells, triangles) = note.strip_suffix(" triangles")?.split_once(" of ")?;
+    let is_of_shells = shells.ends_with(" shells") || shells.ends_with(" shell");
+    triangles.parse().ok().filter(|_| is_of_shells)
 }
 
 /// How many polygons a frame of shells draws.
 pub(super) fn polygons_of_shells(scene: &Scene, plan: &Plan) -> Option<String> {
     let shells = scene.shells.as_ref().filter(|_| !plan.method.takes_samples())?;
     let triangles = shells.triangles(&scene.field);
-    Some(format!("{} shells of {triangles} triangles", shells.drawn().len()))
+    let count = match shells.drawn().len() {
+        1 => "1 shell".to_owned(),
+        count => format!("{count} shells"),
+    };
+    Some(format!("{count} of {triangles} triangles"))
 }
