@@ -4,16 +4,18 @@
 use std::sync::Arc;
 
 use depthleap::frame::Resident;
+use depthleap::measure::limits;
 use depthleap::method::SHELLS;
 use depthleap::plan::builds::Maker;
 use depthleap::plan::{Choice, Plan, plan_for};
 use depthleap::read;
+use depthleap::resource;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::settings::{Settings, ShellMode, VolumeTexture};
 use depthleap::scene::shells::{Faces, polygons};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, Shells, Volume};
-use depthleap::vulkan::Device;
+use depthleap::vulkan::{Device, DeviceInfo};
 
 use crate::frame::recorded::alone;
 use crate::harness::{Need, Test, data, test};
@@ -42,6 +44,7 @@ pub fn tests() -> Vec<Test> {
         of("a_sheet", |device| agree(device, &random([40, 33, 1], Voxels::F32, NanPolicy::Replace, |v| v))),
         of("sums_of_sums", |device| agree(device, &shells("shells:80", |s| s.shells.count = 1))),
         of("a_level_that_changes_leaves_the_others", a_level_that_changes),
+        of("shells_that_do_not_fit_are_refused_before_they_are_made", too_large),
     ];
     for name in ["neghip.nrrd", "mra_tof.nrrd"] {
         let run = move |device: &Arc<Device>| {
@@ -125,6 +128,21 @@ fn agree(device: &Arc<Device>, scene: &Scene) {
         triangles += host.triangles.len();
     }
     assert!(triangles > 0, "there are no polygons");
+}
+
+/// Asked of a plan alone, whose shells are counted and not made.
+fn too_large(device: &Arc<Device>) {
+    let scene = shells("shells:40", |s| s.shells.count = 5);
+    let plan = on_device(&scene);
+    let bytes: u64 = resource::shell_bytes(&scene).iter().sum();
+    let info = || device.info.clone();
+    assert!(limits::check_device(&info(), &scene, &plan).is_ok());
+    let small = DeviceInfo { memory_bytes: bytes - 1, ..info() };
+    let said = limits::check_device(&small, &scene, &plan).expect_err("it does not fit").to_string();
+    assert!(said.contains("shells that take") && said.contains("fewer shells"), "{said}");
+    let few = DeviceInfo { max_vertex_number: 1000, ..info() };
+    let said = limits::check_device(&few, &scene, &plan).expect_err("it does not fit").to_string();
+    assert!(said.contains("numbers at most 1000"), "{said}");
 }
 
 fn a_level_that_changes(_: &Arc<Device>) {

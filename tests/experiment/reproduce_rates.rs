@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use depthleap::experiment::reproduce::rates::{
-    KW03, RATE_TABLES, Rate, RateLine, RateSet, RateTable, STEGMAIER, explained, rate_lines, rate_verdicts,
+    HEIDRICH, KW03, RATE_TABLES, Rate, RateLine, RateSet, RateTable, STEGMAIER, explained, rate_lines, rate_verdicts,
 };
 use depthleap::experiment::reproduce::termination::{PUBLISHED_GAIN, gain_lines, gain_verdict};
 use depthleap::experiment::reproduce::{
     FORMAT, ReproducedSet, Reproduction, SEMI_TRANSPARENT, TimedRecord, Variant, csv, page, rates_csv, text,
 };
+use depthleap::measure::notes::triangles_in;
 use depthleap::measure::record::{Clock, Run};
 use depthleap::measure::timing::Timing;
 use depthleap::provenance::Provenance;
@@ -99,6 +100,24 @@ fn found() -> Reproduction {
         date: "2026-01-01T00:00:00Z".to_owned(),
     };
     Reproduction { provenance, columns: Vec::new(), figures: Vec::new(), timed: Some(timed) }
+}
+
+#[test]
+fn triangles_of_shells_stand_beside_the_papers() {
+    let shells = |triangles: u64| {
+        let mut run = timed_by("shells", 512, 0.0, 0.95, 10.0);
+        run.notes = vec!["a note of 7 words".to_owned(), format!("11 shells of {triangles} triangles")];
+        run
+    };
+    let mut found = found();
+    let variants = vec![variant("main", vec![shells(5000)]), variant("levels", vec![shells(70_000), shells(400)])];
+    let rates = &mut found.timed.as_mut().unwrap().rates;
+    rates.push(column(&HEIDRICH, "Hipip 1", None, variants));
+    let told = "Hipip 1: the paper's 11 shells have 44,846 polygons; here 5,000 triangles, over the sweep 400 to 70,000";
+    for shown in [text(&found), page(&found, &|_| Err(String::new()))] {
+        assert!(shown.replace("&#39;", "'").replace("&#x27;", "'").contains(told), "{shown}");
+    }
+    assert_eq!(["1 shell of 8 triangles", "9 cells of 8 triangles"].map(triangles_in), [Some(8), None]);
 }
 
 fn line(lines: &[RateLine], name: &str, size: u32, renderer: &str) -> RateLine {
