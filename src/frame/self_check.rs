@@ -21,7 +21,7 @@ use crate::probe::correct::{Depth, faults};
 use crate::probe::decide::Culling;
 use crate::probe::known;
 use crate::probe::run::missing;
-use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, rig};
+use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, pipelines};
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
@@ -158,7 +158,7 @@ fn compile(device: &Device, scene: &Scene, resident: &Resident) -> Result<()> {
     let possible = |form: &Form| cases(*form).iter().all(|case| missing(device, case).is_none());
     let forms: Vec<Form> = forms().into_iter().filter(possible).collect();
     let asked: Vec<Case> = forms.iter().flat_map(|form| cases(*form)).collect();
-    glsl::prepare(rig::shaders(&asked).iter().chain([&texture_unit::shader()]))?;
+    glsl::prepare(pipelines::shaders(&asked).iter().chain([&texture_unit::shader()]))?;
     let plans = forms.iter().map(|form| plan::plan(scene, Some(*form))).collect::<Result<Vec<_>>>()?;
     resident.pipelines.prepare(plans.iter().flat_map(|plan| plan.frame()))
 }

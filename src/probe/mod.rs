@@ -6,7 +6,7 @@
 //!
 //! 1. [`case`]: mechanism, shader, compare: a line of the table. [`depth`]: depths as formats keep them.
 //! 2. [`rule`]: what each fragment has to leave behind, the one definition of right.
-//! 3. [`rig`]: draws a case on a device. [`correct`]: what it leaves against the rule.
+//! 3. [`rig`], with its [`pipelines`]: draws a case on a device. [`correct`]: what it leaves against the rule.
 //! 4. [`measure`]: times and counts. [`statistics`], [`decide`]: from these to a verdict.
 //! 5. [`run`]: all of it for a device. [`record`]: what came out, as it is kept; [`known`]: what came out before.
 
@@ -18,6 +18,7 @@ pub mod known;
 pub mod marks;
 pub mod measure;
 pub mod pattern;
+pub mod pipelines;
 pub mod record;
 pub mod rig;
 pub mod rule;

@@ -1,19 +1,18 @@
 //! What a case is drawn with on a device: a square picture with its depths, and what is left in it.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use ash::vk;
 
-use super::case::{Case, History, Mechanism};
+use super::case::{Case, History};
 use super::depth::Precision;
+use super::pipelines::CasePipelines;
 use super::rule::Setup;
 use crate::error::Result;
-use crate::glsl;
 use crate::vulkan::{
-    Attachment, Blend, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DepthState, DescriptorSet, Device,
-    Framebuffer, GraphicsPipeline, GraphicsPipelineInfo, Image, ImageInfo, ImageShape, Place, QueryKind, QueryPool,
-    RenderPass, RenderPassInfo, Role, Sampler, Scope, ShaderModule, has_stencil,
+    Attachment, Bound, Buffer, BufferInfo, Commands, CopyRegion, Dependency, DescriptorSet, Device, Framebuffer,
+    GraphicsPipeline, Image, ImageInfo, ImageShape, Place, QueryKind, QueryPool, RenderPass, RenderPassInfo, Role,
+    Sampler, Scope, has_stencil,
 };
 
 const COLOR: vk::Format = vk::Format::R32_SFLOAT;
@@ -83,12 +82,8 @@ pub struct Rig {
     occlusion: QueryPool,
     pub(super) statistics: Option<QueryPool>,
     pub(super) timestamps: Option<QueryPool>,
-    vertex: ShaderModule,
-    pipelines: Arc<Mutex<CasePipelines>>,
+    pipelines: Arc<CasePipelines>,
 }
-
-/// By case; none for the draw that fills.
-type CasePipelines = HashMap<Option<Case>, Arc<GraphicsPipeline>>;
 
 /// Where in the upload buffer things stand, in bytes of a pixel: depth, stored, written (4 each), stencil.
 const PARTS: u64 = 13;
@@ -158,8 +153,7 @@ impl Rig {
             occlusion: query(QueryKind::Occlusion, 1)?,
             statistics: has_statistics.then(|| query(QueryKind::Statistics, 1)).transpose()?,
             timestamps: has_time.then(|| query(QueryKind::Timestamp, 2)).transpose()?,
-            vertex: compiled(&vertex())?,
-            pipelines: Arc::default(),
+            pipelines: Arc::new(CasePipelines::new(device)?),
         })
     }
 
@@ -229,8 +223,9 @@ impl Rig {
 
     /// Writes a draw, from the stored depths to what is left, and what is asked about it.
     pub(super) fn record(&mut self, commands: &mut Commands, case: &Case, input: &Input, ask: Ask) -> Result<()> {
-        let pipeline = self.pipeline(Some(case))?;
-        let fill = if input.history == History::Draw { Some(self.pipeline(None)?) } else { None };
+        // Passes of a rig differ in what they begin with alone.
+        let pipeline = self.pipelines.of(Some(case), &self.passes[0].0)?;
+        let fill = (input.history == History::Draw).then(|| self.pipelines.of(None, &self.passes[0].0)).transpose()?;
         self.restore(commands, input);
         let pool = match ask {
             Ask::Samples => Some(&self.occlusion),
@@ -325,73 +320,6 @@ impl Rig {
         ];
         DescriptorSet::new(&self.device, &pipeline.name, &pipeline.layout, &resources)
     }
-
-    /// Of a case, or of the draw that fills.
-    fn pipeline(&self, case: Option<&Case>) -> Result<Arc<GraphicsPipeline>> {
-        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = pipelines.get(&case.copied()) {
-            return Ok(known.clone());
-        }
-        let made = match case {
-            Some(case) => {
-                let mechanism = case.mechanism;
-                let stencil = (mechanism == Mechanism::Stencil).then_some(1);
-                let depth = DepthState {
-                    test: mechanism != Mechanism::BoundsAlone,
-                    write: mechanism.writes_depth(),
-                    compare: if mechanism.compares() { case.compare.op() } else { vk::CompareOp::ALWAYS },
-                    bounds: mechanism.bounds(),
-                };
-                self.make(&case.name(), &case.fragment(), depth, stencil)?
-            }
-            None => {
-                let depth = DepthState { test: true, write: true, ..DepthState::OFF };
-                self.make("probe fill", &fill(), depth, None)?
-            }
-        };
-        pipelines.insert(case.copied(), made.clone());
-        Ok(made)
-    }
-
-    fn make(
-        &self,
-        name: &str,
-        fragment: &glsl::Shader,
-        depth: DepthState,
-        stencil: Option<u8>,
-    ) -> Result<Arc<GraphicsPipeline>> {
-        let fragment = compiled(fragment)?;
-        let info = GraphicsPipelineInfo {
-            name,
-            vertex: &self.vertex,
-            fragment: Some(&fragment),
-            constants: &[],
-            render_pass: &self.passes[0].0,
-            vertex_format: None,
-            depth,
-            stencil,
-            blend: Blend::Replace,
-        };
-        Ok(Arc::new(GraphicsPipeline::new(&self.device, &info)?))
-    }
-}
-
-fn vertex() -> glsl::Shader {
-    glsl::Shader::new("probe/probe.vert", [])
-}
-
-/// What writes depths before a case is drawn.
-fn fill() -> glsl::Shader {
-    glsl::Shader::new("probe/fill.frag", [])
-}
-
-/// Everything that drawing these cases compiles.
-pub fn shaders(cases: &[Case]) -> Vec<glsl::Shader> {
-    cases.iter().map(Case::fragment).chain([vertex(), fill()]).collect()
-}
-
-fn compiled(shader: &glsl::Shader) -> Result<ShaderModule> {
-    ShaderModule::new(&shader.to_string(), &glsl::module(shader)?)
 }
 
 fn render_pass(format: vk::Format, load: vk::AttachmentLoadOp) -> RenderPassInfo {

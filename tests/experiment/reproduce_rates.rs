@@ -113,7 +113,8 @@ fn triangles_of_shells_stand_beside_the_papers() {
     let variants = vec![variant("main", vec![shells(5000)]), variant("levels", vec![shells(70_000), shells(400)])];
     let rates = &mut found.timed.as_mut().unwrap().rates;
     rates.push(column(&HEIDRICH, "Hipip 1", None, variants));
-    let told = "Hipip 1: the paper's 11 shells have 44,846 polygons; here 5,000 triangles, over the sweep 400 to 70,000";
+    let told =
+        "Hipip 1: the paper's 11 shells have 44,846 polygons; here 5,000 triangles, over the sweep 400 to 70,000";
     for shown in [text(&found), page(&found, &|_| Err(String::new()))] {
         assert!(shown.replace("&#39;", "'").replace("&#x27;", "'").contains(told), "{shown}");
     }

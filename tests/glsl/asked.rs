@@ -11,7 +11,7 @@ use depthleap::method::METHODS;
 use depthleap::part::form::Form;
 use depthleap::part::rows::{Method, Traversal};
 use depthleap::plan::{Plan, plan};
-use depthleap::probe::{Case, rig};
+use depthleap::probe::{Case, pipelines};
 use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
 use depthleap::read;
 use depthleap::scene::field::{Field, NanPolicy};
@@ -146,7 +146,7 @@ pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
     let steps = || plans.iter().flat_map(|(_, plan)| &plan.steps);
     let planned = steps().filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
     let corners = steps().filter_map(|step| step.work.geometry()).map(|geometry| Shader::new(geometry.vertex, []));
-    let others = rig::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]);
+    let others = pipelines::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]);
     planned.chain(corners).chain(others).collect()
 }
 
