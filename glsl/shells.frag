@@ -138,22 +138,16 @@ float steps_from_entry() {
 #endif
 
 void main() {
-#ifdef SURFACE
+#if defined(SURFACE)
     float steps = max(steps_from_entry(), 0.0);
     accumulated = vec4(steps, steps, 0.0, 1.0);
-    return;
-#endif
-#if defined(LENGTHS)
+#elif defined(LENGTHS)
     float way = way_to_end() * shell_levels.list[this_step.pass].rise;
-    float brightness = gl_FrontFacing ? way : -way;
+    accumulated = vec4(vec3(gl_FrontFacing ? way : -way), 0.0);
 #elif defined(CROSSINGS)
-    float brightness = shell_levels.list[this_step.pass].emission * (shell_cue.beta.x + shell_cue.beta.y * gl_FragCoord.z);
+    float cue = shell_cue.beta.x + shell_cue.beta.y * gl_FragCoord.z;
+    accumulated = vec4(vec3(shell_levels.list[this_step.pass].emission * cue), 0.0);
 #else
-    float brightness = gl_FragCoord.z * shell_cue.brightness;
-#endif
-#if defined(LENGTHS) || defined(CROSSINGS)
-    accumulated = vec4(vec3(brightness), 0.0);
-#else
-    accumulated = vec4(vec3(brightness), 1.0);
+    accumulated = vec4(vec3(gl_FragCoord.z * shell_cue.brightness), 1.0);
 #endif
 }

@@ -71,6 +71,20 @@ fn names_of_steps_are_unique_and_numbers_those_of_their_pass() {
     }
 }
 
+#[test]
+fn frames_look_up_the_distances_that_they_are_planned_for() {
+    let mut seen = 0;
+    for case in cases().into_iter().filter(|case| case.plan.distance.is_some()) {
+        let asset = case.plan.asset(resource::NEAREST_DISTANCE);
+        // Those of all views are built before those along rays, and stand in the list too.
+        assert_eq!(asset.lookup, case.plan.distance, "{}", case.name);
+        let built: Vec<_> = case.plan.builds.iter().map(|build| build.asset).collect();
+        assert!(built.contains(&asset), "{}: {built:?}", case.name);
+        seen += usize::from(asset.lookup.is_some_and(|lookup| lookup.view.is_some()));
+    }
+    assert!(seen > 2, "{seen} frames look up distances along rays");
+}
+
 fn planned(settings: &Settings) -> Plan {
     let scene = scene(settings);
     plan(&scene, form(&scene, method::papers_form(settings.method.name)).unwrap()).unwrap()

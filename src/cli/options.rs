@@ -12,7 +12,7 @@ use crate::method;
 use crate::part::rows::Method;
 use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
-use crate::scene::settings::{Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions};
+use crate::scene::settings::{Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode};
 use crate::scene::transfer::DEFAULT_PRESET;
 use crate::scene::{builtin, scenes};
 
@@ -104,6 +104,7 @@ pub fn scene_name(settings: &Settings) -> String {
     let surfaces = settings.surface.asked();
     let tf = match (&transfer.preset, &transfer.file) {
         _ if !surfaces.is_empty() => surface_name(settings),
+        _ if settings.shells.mode.is_some() => shells_name(settings),
         (Some(name), _) => name.clone(),
         (None, Some(file)) => file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default(),
         (None, None) if transfer.points.is_some() => "points".to_owned(),
@@ -136,6 +137,18 @@ pub fn scene_name(settings: &Settings) -> String {
 }
 
 /// What the iso-surfaces of a scene are called: `iso 120`, with how they are found where that is not the usual way.
+/// What is made of how many shells; rays show what more and more of them come to.
+fn shells_name(settings: &Settings) -> String {
+    let shells = &settings.shells;
+    let levels = if shells.shell_levels.is_empty() { shells.count as usize } else { shells.shell_levels.len() };
+    let what = match shells.mode {
+        Some(ShellMode::Max) | None => "the greatest",
+        Some(ShellMode::Sum) => "the sum",
+        Some(ShellMode::Surface) => "the outermost",
+    };
+    format!("{what} of {} shells", levels.saturating_sub(shells.disabled.len()))
+}
+
 fn surface_name(settings: &Settings) -> String {
     let (surface, asked) = (&settings.surface, settings.surface.asked());
     let mut name = match &asked[..] {

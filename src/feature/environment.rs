@@ -1,6 +1,6 @@
 //! What iso-surfaces reflect [Thesis §4.3].
 
-use super::surface::{ISO_SURFACE, is_lit};
+use super::surface::{is_drawn, is_lit};
 use crate::error::{Error, Result};
 use crate::part::Constant;
 use crate::part::rows::{Feature, Hook, Why};
@@ -14,7 +14,7 @@ pub const ENVIRONMENT: Feature = Feature {
     constants: |context| context.scene.environment.iter().map(|environment| mapping(environment.mapping)).collect(),
     reads: |_| vec![resource::ENVIRONMENT, resource::ENVIRONMENT_PLACE],
     ..Feature::at(Hook::Light, "environment", |context| match &context.scene.environment {
-        Some(_) if !context.has(&ISO_SURFACE) => Err(Why::Untold),
+        Some(_) if !is_drawn(context) => Err(Why::Untold),
         Some(_) if !is_lit(context) => Err("places and normals of surfaces show, which reflect nothing".into()),
         Some(environment) if context.plans() && environment.reflectivity == 0.0 => Err("reflectivity is 0".into()),
         Some(_) => Ok(()),

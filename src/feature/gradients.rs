@@ -1,7 +1,7 @@
 //! Gradients in a texture, in place of differences in the shader [Stegmaier05 §4, Thesis ch. 7 §7.3].
 
 use super::lights::LIT_SAMPLES;
-use super::surface::ISO_SURFACE;
+use super::surface::is_drawn;
 use crate::error::{self, Error};
 use crate::part::Constant;
 use crate::part::rows::{Context, Feature, Hook, Why};
@@ -19,7 +19,7 @@ pub const GRADIENT_TEXTURE: Feature = Feature {
 };
 
 fn needed(context: &Context) -> Result<(), Why> {
-    let there = context.has(&LIT_SAMPLES) || context.has(&ISO_SURFACE);
+    let there = context.has(&LIT_SAMPLES) || is_drawn(context);
     match (context.scene.settings.shading.gradients, there && context.scene.reads_gradients()) {
         (Gradients::Precomputed, true) => Ok(()),
         (Gradients::Precomputed, false) if context.scene.effect.is_some() => {

@@ -1,6 +1,6 @@
 //! Lights on samples and on surfaces: the illumination model of Phong [Thesis §4.2.1].
 
-use super::surface::{ISO_SURFACE, is_lit};
+use super::surface::{is_drawn, is_lit};
 use crate::error::{Error, Result};
 use crate::part::Constant;
 use crate::part::resource::Resource;
@@ -23,10 +23,10 @@ pub const LIT_SAMPLES: Feature = Feature {
 
 /// Red, green and blue of lights that differ.
 pub const LIGHT_COLORS: Feature = Feature::of_frame("colours of lights", |context| {
-    if !context.has(&ISO_SURFACE) && !context.has(&LIT_SAMPLES) {
+    if !is_drawn(context) && !context.has(&LIT_SAMPLES) {
         return Err(Why::Untold);
     }
-    if context.has(&ISO_SURFACE) && !is_lit(context) {
+    if is_drawn(context) && !is_lit(context) {
         return Err("places and normals of surfaces show, which no light changes".into());
     }
     match context.plans() && context.scene.shining().iter().all(|light| light.is_white()) {

@@ -44,7 +44,7 @@ pub fn check(scene: &Scene, method: &Method) -> Result<()> {
         () if mode == ShellMode::Sum && settings.sum == ShellSum::Crossings => {
             alone("shells.sum (--shell-sum) crossings", "asks for a sum over polygons")
         }
-        () if !settings.disabled.is_empty() => alone("shells.disabled", "leaves shells out"),
+        () if !settings.disabled.is_empty() => alone("shells.disabled (--shell-disabled)", "leaves shells out"),
         () => Ok(()),
     }
 }

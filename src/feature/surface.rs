@@ -13,11 +13,13 @@ use crate::scene::settings::{Accumulate, Filter, Find, Offset, Refine, Shows};
 pub const ISO_SURFACE: Feature = Feature {
     with: Some("SURFACE"),
     reads: |_| vec![resource::SURFACE_LEVELS],
-    ..Feature::at(Hook::Sample, "iso-surface", |context| match context.scene.surface {
-        Some(_) if context.passes > 0 => Ok(()),
-        _ => Err(Why::Untold),
-    })
+    ..Feature::at(Hook::Sample, "iso-surface", |context| if is_drawn(context) { Ok(()) } else { Err(Why::Untold) })
 };
+
+/// Whether there are iso-surfaces, whatever they are drawn by.
+pub fn is_drawn(context: &Context) -> bool {
+    context.scene.surface.is_some() && context.passes > 0
+}
 
 /// Surfaces that let something through, so that rays go on behind them [Stegmaier05 §6].
 pub const TRANSPARENT_SURFACES: Feature = Feature {

@@ -95,7 +95,7 @@ impl Resident {
         image.map(|image| upload::read_sampled(&self.device, image)).transpose()
     }
 
-    /// The vertices and triangles of a shell as the device has them, by its number in the plan's scene; none where they were not built there.
+    /// The vertices and triangles of a shell as the device has them, by its number in the plan's scene; none where they are not there.
     ///
     /// # Errors
     /// What the driver reports.

@@ -26,8 +26,7 @@ pub static SHELL_SURFACES: Geometry =
 
 /// Vertices and triangles of a shell.
 fn count(scene: &Scene, number: u32) -> [u32; 2] {
-    let shell = scene.shells.as_ref().and_then(|shells| shells.list.get(number as usize));
-    shell.map_or([0; 2], |shell| shell.count(&scene.field))
+    scene.shells.as_ref().map_or([0; 2], |shells| shells.count_of(number as usize, &scene.field))
 }
 
 /// One fragment for each triangle of any shell that the ray through the pixel's centre meets.

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::part::resource::{Resource, ResourceKind};
 use crate::plan::Plan;
+use crate::plan::builds::Maker;
 use crate::resource;
 use crate::scene::{Scene, Volume};
 use crate::vulkan::DeviceInfo;
@@ -96,7 +97,8 @@ pub fn check_host(scene: &Scene, plan: &Plan) -> Result<()> {
         );
         return Err(Error::input(&scene.field.volume.name, problem, "use --gradients on-the-fly"));
     }
-    let shells = if plan.method.takes_samples() { 0 } else { resource::shell_bytes(scene).into_iter().sum() };
+    let on_host = plan.builds.iter().filter(|build| build.maker == Maker::Host && build.asset.level.is_some());
+    let shells = on_host.map(|build| build.asset.resource.bytes(&plan.facts(scene))).sum();
     if !there(shells) {
         let problem = format!("has shells that take {} MiB of memory, which are not available", shells >> 20);
         return Err(Error::input(&scene.field.volume.name, problem, "use fewer shells, or levels of smaller ones"));

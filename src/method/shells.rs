@@ -7,12 +7,12 @@ use crate::part::rows::{Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::{direction, entry, layer, lighting, shells, start};
 use crate::scene::Scene;
-use crate::scene::settings::{Accumulate, Filter, ShellMode, ShellOrder, ShellSum};
+use crate::scene::settings::{Accumulate, Filter, Find, ShellMode, ShellOrder, ShellSum};
 use crate::scene::shells::ShellDepth;
 
 pub const SHELLS: Method = Method {
     name: "shells",
-    about: "Nested iso-surfaces of an emissive volume as polygons, their greatest emission or the sum",
+    about: "Nested iso-surfaces of an emissive volume as polygons, their greatest emission, the sum, or the outermost in light",
     source: "Heidrich95",
     takes,
     papers: None,
@@ -45,6 +45,13 @@ fn takes(scene: &Scene) -> Result<()> {
         () if !scene.clip_planes().is_empty() || !polygons.clips().is_empty() || scene.clip_volume.is_some() => {
             refused("draws whole shells, which nothing cuts", "use a ray caster, or leave out [[clip]] (--clip-plane)")
         }
+        () if scene.backdrop.is_some() => {
+            refused("shows nothing behind the volume", "use a ray caster, or leave the background out (--behind)")
+        }
+        () if mode == ShellMode::Surface && scene.settings.surface.find == Find::Range => refused(
+            "draws the surface of a value, and surface.find (--find range) asks for all values about it",
+            "use crossing, or a ray caster",
+        ),
         () if !polygons.transparent().is_empty() => refused(
             "blends shells in no order, among which transparent polygons have no place [Heidrich95 §4]",
             "make the meshes opaque, or use a ray caster",
@@ -142,6 +149,6 @@ fn draw_outermost(context: &Context, steps: &mut Steps) {
 
 /// Whether there is anything of a shell to be drawn.
 fn has_polygons(context: &Context, number: u32) -> bool {
-    let shell = context.scene.shells.as_ref().and_then(|shells| shells.list.get(number as usize));
-    shell.is_some_and(|shell| shell.count(&context.scene.field)[1] > 0)
+    let (shells, field) = (&context.scene.shells, &context.scene.field);
+    shells.as_ref().is_some_and(|shells| shells.count_of(number as usize, field)[1] > 0)
 }

@@ -36,7 +36,7 @@ pub fn lighting(context: &Context) -> Step {
     Step::drawn("lighting".to_owned(), Group::Light, 0, accesses, draw)
 }
 
-/// The same of the polygons of a surface, which tell where it is.
+/// The lighting pass of a surface whose polygons tell where rays meet it.
 pub fn of_polygons(context: &Context) -> Step {
     let mut step = lighting(context);
     if let Work::Draw(draw) = &mut step.work {

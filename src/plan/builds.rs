@@ -8,6 +8,7 @@ use crate::part::{Group, Step};
 use crate::pass::build::{self, recipe};
 use crate::resource;
 use crate::scene::settings::Distance;
+use crate::scene::settings::ShellMode;
 use crate::scene::shells::Shells;
 use crate::structure::Lookup;
 
@@ -17,7 +18,7 @@ pub struct Asset {
     pub resource: Resource,
     /// What of the look-ups it depends on; none for what serves all of them.
     pub lookup: Option<Lookup>,
-    /// The level of the shell it belongs to, in the volume's own unit; none for what belongs to none.
+    /// The level of the shell it was made for, in the volume's own unit; none for what was made for none.
     pub level: Option<f64>,
 }
 
@@ -44,6 +45,11 @@ impl Asset {
             }
             (Life::View, _) => Self { lookup, ..serves_all },
             (Life::Transfer, Origin::Built) => Self { lookup: cells, ..serves_all },
+            // The outermost shell as a surface.
+            _ if resource == resource::SURFACE_LEVELS => {
+                let outermost = shells.filter(|shells| shells.mode == ShellMode::Surface);
+                Self { level: outermost.and_then(|shells| shells.outermost()), ..serves_all }
+            }
             (Life::Shell, _) => {
                 let shell = shells.and_then(|shells| shells.list.get(usize::from(resource.index)));
                 Self { level: shell.map(|shell| shell.level), ..serves_all }

@@ -36,7 +36,7 @@ pub struct Plan {
     pub form: Option<Form>,
     /// The distances that the steps look up, where they do.
     pub distance: Option<Lookup>,
-    /// How the volume is kept for the steps; none where none reads it on a device.
+    /// How the volume is kept for the steps of the frame; none where none of them reads it on a device.
     pub texture: Option<TextureChoice>,
     /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation.
     pub pixel_error: f64,
@@ -66,8 +66,10 @@ impl Plan {
 
     /// The asset that a step means by a resource.
     pub fn asset(&self, resource: Resource) -> Asset {
-        let built = self.builds.iter().find(|build| build.asset.resource == resource);
-        built.map_or_else(|| Asset::of(resource, self.distance, None), |build| build.asset)
+        // Those of shells alone depend on more than the distances that are looked up.
+        let of_shells = self.builds.iter().filter(|build| build.asset.level.is_some());
+        let built = of_shells.map(|build| build.asset).find(|asset| asset.resource == resource);
+        built.unwrap_or_else(|| Asset::of(resource, self.distance, None))
     }
 
     /// What sizes and contents of the plan's resources follow from.
@@ -283,6 +285,9 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
     } else if !context.method.takes_samples() {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "each shell is a pass"));
+        }
+        if scene.surface.is_some() {
+            left_out.push(LeftOut::new("places between samples", "polygons tell where the surface is"));
         }
     } else if context.method.stack().is_some() {
         if scene.settings.sampling.passes > 0 && context.method.back_to_front() {

@@ -121,7 +121,7 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
 fn no_shell(scene: &Scene) -> String {
     let all_left_out = scene.shells.as_ref().is_some_and(|shells| shells.list.is_empty() && shells.empty.is_empty());
     let why = match all_left_out {
-        true => "all shells are left out; give fewer numbers in shells.disabled",
+        true => "all shells are left out; give fewer numbers in shells.disabled (--shell-disabled)",
         false => "no value of the volume reaches the level of any shell; give lower levels (--shell-levels)",
     };
     format!("the picture is empty: {why}")
@@ -186,7 +186,8 @@ fn no_surface(scene: &Scene) -> String {
     }
     match surface.find {
         Find::Crossing => {
-            format!("the picture is empty: no value reaches {asked}, where {values}; give a smaller --iso")
+            let option = if of_shell.is_some() { "lower --shell-levels" } else { "a smaller --iso" };
+            format!("the picture is empty: no value reaches {asked}, where {values}; give {option}")
         }
         Find::Range => {
             let advice = "give another --iso, or a larger --iso-width";

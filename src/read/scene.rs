@@ -172,7 +172,7 @@ fn outermost(settings: &Settings, shells: &Shells, field: &Field, transfer: &Tra
     settings.surface.iso = shells.outermost();
     match Surface::of(&settings, field, transfer) {
         Some(surface) => Ok(surface),
-        None => refused("shells.disabled", "leaves all shells out", "give fewer numbers"),
+        None => refused("shells.disabled (--shell-disabled)", "leaves all shells out", "give fewer numbers"),
     }
 }
 

@@ -18,8 +18,8 @@ static SHELL_POLYGONS_INFO: ResourceInfo = ResourceInfo {
     name: "shell_polygons",
     holds: "vertices in volume space, then of each triangle the numbers of its three",
     kind: ResourceKind::Polygons(|facts, number| {
-        let shell = shells(facts).get(usize::from(number));
-        shell.map_or(0, |shell| polygon_bytes(shell.count(&facts.scene.field)))
+        let (shells, field) = (&facts.scene.shells, &facts.scene.field);
+        shells.as_ref().map_or(0, |shells| polygon_bytes(shells.count_of(number.into(), field)))
     }),
     life: Life::Shell,
     origin: Origin::Built,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::projection::Shown;
 use crate::scene::texture::{Coding, Stretch, TexelFormat, TextureChoice, TextureMap};
-use crate::scene::volume::Voxels;
+use crate::scene::volume::{VoxelType, Voxels};
 use crate::scene::{Field, Scene, TransferFunction};
 use crate::structure::cells::Values;
 
@@ -98,22 +98,6 @@ impl<'a> Texels<'a> {
         }
     }
 
-    /// The level, in x, among the texture's values: voxels whose x is not below it are those whose texels are not below this. Of codes it
-    /// lies in the middle between two, so that it does not matter how a device rounds them.
-    pub fn threshold(&self, field: &Field, level: f32) -> f32 {
-        if matches!(self.values, Values::Float(_)) {
-            return level;
-        }
-        let codes = i32::from(i16::MIN)..=i32::from(u16::MAX);
-        let not_below = codes.clone().collect::<Vec<_>>().partition_point(|value| field.x(f64::from(*value)) < level);
-        let between = f64::from(*codes.start()) + not_below as f64 - 0.5;
-        let [low, high] = field.range;
-        match field.has_empty_range() {
-            true => level,
-            false => (self.scale * ((between - low) / (high - low)) + self.offset) as f32,
-        }
-    }
-
     /// What shows of a scene, among the texture's values.
     pub fn shown(&self, scene: &Scene) -> Shown {
         Shown::of(scene, TextureMap { scale: self.scale, offset: self.offset })
@@ -123,6 +107,31 @@ impl<'a> Texels<'a> {
     pub fn transfer(&self, transfer: &TransferFunction) -> TransferFunction {
         transfer.mapped(|x| self.scale * x + self.offset)
     }
+}
+
+/// A level, in x, among the values of a texture that keeps a field so: voxels whose x is not below it are those whose texels are not below
+/// this. Of codes it lies in the middle between two, so that it does not matter how a device rounds them.
+pub fn threshold(field: &Field, kept: Coding, level: f32) -> f32 {
+    if kept == Coding::Float || texel_type(field).is_none() || field.has_empty_range() {
+        return level;
+    }
+    // The least whole number whose x is not below the level; numbers of the types that have codes have 16 bits at the most.
+    let (mut below, mut not_below) = (i32::from(i16::MIN) - 1, i32::from(u16::MAX) + 1);
+    while not_below - below > 1 {
+        let middle = (below + not_below) / 2;
+        match field.x(f64::from(middle)) < level {
+            true => below = middle,
+            false => not_below = middle,
+        }
+    }
+    let ([low, high], TextureMap { scale, offset }) = (field.range, TextureMap::of(field, kept));
+    (scale * ((f64::from(not_below) - 0.5 - low) / (high - low)) + offset) as f32
+}
+
+/// The type of a field's voxels, where textures may hold their codes.
+fn texel_type(field: &Field) -> Option<VoxelType> {
+    let of = field.volume.voxels.voxel_type();
+    matches!(of, VoxelType::U8 | VoxelType::I8 | VoxelType::U16 | VoxelType::I16).then_some(of)
 }
 
 /// A code of 8 bits times this is the code of 16 bits for the same number: 65535 / 255.

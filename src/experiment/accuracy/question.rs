@@ -43,7 +43,7 @@ pub fn questions(curves: &[Curve]) -> Vec<Question> {
         let all_shown = (0..curves.len()).filter(|i| curves[*i].method == *method).all(shown);
         // The first method stands for those that were run in no other ways.
         if !all_shown || curves[0].method == *method {
-            let has_surface = curves[0].settings.surface.is_asked();
+            let has_surface = curves[0].settings.has_surface();
             if has_surface { surface_ways(&mut asked, curves, method) } else { ways(&mut asked, curves, method) }
         }
     }

@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-/// Why nothing was done for a part of the work that was not asked for, and for frame rates of a paper that were not.
+/// Why nothing was done for a part of the work that was not asked for.
 pub const LEFT_OUT: &str = "left out: --parts does not name it";
+
+/// Why nothing was done for the frame rates of a paper that was not asked for.
 pub const PAPER_LEFT_OUT: &str = "left out: --papers does not name it";
 
 /// The folder of the volumes, as one part of the work sees it.

@@ -6,9 +6,10 @@ use crate::glsl::Shader;
 use crate::part::Step;
 use crate::part::resource::Facts;
 use crate::resource;
-use crate::resource::texels::Texels;
+use crate::resource::texels::threshold;
 use crate::resource::{SUMMED, lattice_words, sum_counts};
 use crate::scene::shells::{Faces, Lattice};
+use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::shared::Slice;
 
 /// Nodes in a word of bits.
@@ -66,7 +67,8 @@ pub fn shell(facts: &Facts, number: u16) -> Vec<Step> {
 fn slice(facts: &Facts, number: u16) -> Option<Slice> {
     let field = &facts.scene.field;
     let shell = facts.scene.shells.as_ref()?.list.get(usize::from(number))?;
-    let texels = Texels::of(facts.scene);
+    let kept = TextureChoice::of(facts.scene).kept;
+    let TextureMap { scale, offset } = TextureMap::of(field, kept);
     let [cells_x, cells_y, cells_z] = Lattice::new(field, Faces::Closed).nodes().map(|n| n as u32);
     let [voxel_x, voxel_y, voxel_z] = field.voxel().as_vec3().to_array();
     Some(Slice {
@@ -75,8 +77,8 @@ fn slice(facts: &Facts, number: u16) -> Option<Slice> {
         cells_y,
         cells_z,
         corners: shell.count(field)[0],
-        level: (texels.scale * f64::from(shell.emission as f32) + texels.offset) as f32,
-        threshold: texels.threshold(field, shell.emission as f32),
+        level: (scale * f64::from(shell.emission as f32) + offset) as f32,
+        threshold: threshold(field, kept, shell.emission as f32),
         voxel_x,
         voxel_y,
         voxel_z,
@@ -84,7 +86,7 @@ fn slice(facts: &Facts, number: u16) -> Option<Slice> {
     })
 }
 
-/// The same on the host.
+/// The polygons of a shell as the host makes them.
 pub fn polygons(facts: &Facts, number: u16) -> Vec<u8> {
     let shells = facts.scene.shells.as_ref();
     let Some(shell) = shells.and_then(|shells| shells.list.get(usize::from(number))) else { return Vec::new() };

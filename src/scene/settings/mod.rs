@@ -141,6 +141,11 @@ pub struct Formats {
 }
 
 impl Settings {
+    /// Whether iso-surfaces show: those that are asked for, or the outermost shell.
+    pub fn has_surface(&self) -> bool {
+        self.surface.is_asked() || self.shells.mode == Some(ShellMode::Surface)
+    }
+
     /// Every path of a file that the settings name.
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);

@@ -55,9 +55,13 @@ impl Shell {
         self.mesh.mesh.get_or_init(|| polygons(field, self.emission as f32, Faces::Closed).unwrap_or_default())
     }
 
-    /// Its vertices and its triangles, counted before any of them is made.
+    /// Its vertices and its triangles, counted before any of them is made; none where they cannot be counted, which
+    /// [`Shells::count`] says.
     pub fn count(&self, field: &Field) -> [u32; 2] {
-        *self.mesh.count.get_or_init(|| self.counted(field).unwrap_or_default())
+        let known = self.mesh.count.get().copied();
+        known
+            .or_else(|| self.counted(field).ok().map(|counted| *self.mesh.count.get_or_init(|| counted)))
+            .unwrap_or_default()
     }
 
     fn counted(&self, field: &Field) -> Result<[u32; 2]> {
@@ -103,7 +107,8 @@ impl Shells {
         let repeated = if settings.shell_levels.is_empty() { 0 } else { asked - levels.len() };
         let shown = enabled(&levels, &settings.disabled)?;
         let emissions: Vec<f64> = shown.iter().map(|level| f64::from(field.x(*level))).collect();
-        if let Some(below) = emissions.iter().position(|emission| *emission < 0.0) {
+        let emits = mode != ShellMode::Surface;
+        if let Some(below) = emissions.iter().position(|emission| emits && *emission < 0.0) {
             return Err(Error::usage(
                 "shells.levels (--shell-levels)",
                 format!("has the level {}, which is below {}, where emission is 0", shown[below], field.range[0]),
@@ -125,13 +130,21 @@ impl Shells {
         Ok(Some(shells))
     }
 
+    /// The vertices and the triangles of a shell, by its number from the dimmest on; none where there is no such shell.
+    pub fn count_of(&self, number: usize, field: &Field) -> [u32; 2] {
+        self.list.get(number).map_or([0; 2], |shell| shell.count(field))
+    }
+
     /// Counts the polygons that were not counted yet.
     ///
     /// # Errors
     /// When a shell has more than 32 bits count, or there is not enough memory to count them.
     pub fn count(&self, field: &Field) -> Result<()> {
-        for shell in self.drawn().iter().filter(|shell| shell.mesh.count.get().is_none()) {
-            let counted = shell.counted(field)?;
+        for shell in self.drawn() {
+            let counted = match shell.mesh.count.get() {
+                Some(counted) => *counted,
+                None => shell.counted(field)?,
+            };
             if 3 * u64::from(counted[1]) > u64::from(u32::MAX) {
                 return Err(Error::input(
                     &field.volume.name,
@@ -149,7 +162,9 @@ impl Shells {
 
     /// Whether there is a shell at a level, or one that is left out for now.
     pub fn has(&self, level: f64) -> bool {
-        self.list.iter().any(|shell| shell.level == level) || self.disabled.contains(&level)
+        self.list.iter().any(|shell| shell.level == level)
+            || self.disabled.contains(&level)
+            || self.empty.contains(&level)
     }
 
     /// The level of the outermost shell, whether any value reaches it or not; none where all shells are left out.
@@ -197,7 +212,7 @@ pub fn in_the_middle(count: usize, [low, high]: [f64; 2]) -> Vec<f64> {
 fn enabled(levels: &[f64], disabled: &[u32]) -> Result<Vec<f64>> {
     if let Some(odd) = disabled.iter().find(|number| !(1..=levels.len()).contains(&(**number as usize))) {
         return Err(Error::usage(
-            "shells.disabled",
+            "shells.disabled (--shell-disabled)",
             format!("has the number {odd}, and there are {} shells", levels.len()),
             "give numbers from 1 on, the dimmest shell first",
         ));

@@ -99,7 +99,8 @@ pub fn rate_remarks(timed: &TimedRecord, table: &'static RateTable) -> Vec<Strin
         let all: Vec<u64> = found.variants.iter().flat_map(|variant| variant.runs.iter().filter_map(drawn)).collect();
         let polygons = all.first().map(|main| {
             let [least, most] = [all.iter().min(), all.iter().max()].map(|n| thousands(*n.unwrap_or(main)));
-            format!("here {} triangles, over the sweep {least} to {most}", thousands(*main))
+            let swept = (found.variants.len() > 1).then(|| format!(", over the sweep {least} to {most}"));
+            format!("here {} triangles{}", thousands(*main), swept.unwrap_or_default())
         });
         let said: Vec<String> = set.remark.map(str::to_owned).into_iter().chain(polygons).collect();
         (!said.is_empty()).then(|| format!("{}: {}", set.name, said.join("; ")))
