@@ -27,7 +27,7 @@ pub fn page(found: &Accuracy, pictures: Pictures) -> Result<String> {
         &mut page,
         &time_svgs(found)?,
         "Error against time",
-        "Each mark is a picture of one step. Whiskers: least and greatest time. Rings: no other picture is both faster and \
+        "Each mark is a picture of one step, or of one number of shells. Whiskers: least and greatest time. Rings: no other picture is both faster and \
          nearer to what is exact (Pareto front).",
     );
     plots(
