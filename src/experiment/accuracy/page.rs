@@ -27,8 +27,8 @@ pub fn page(found: &Accuracy, pictures: Pictures) -> Result<String> {
         &mut page,
         &time_svgs(found)?,
         "Error against time",
-        "Each mark is a picture of one step, or of one number of shells. Whiskers: least and greatest time. Rings: no other picture is both faster and \
-         nearer to what is exact (Pareto front).",
+        "Each mark is a picture of one step, or of one number of shells. Whiskers: least and greatest time. Rings: no other \
+         picture is both faster and nearer to what is exact (Pareto front).",
     );
     plots(
         &mut page,
