@@ -310,7 +310,7 @@ fn settings(change: Change) -> Settings {
     settings.volume.texture = VolumeTexture::R32f;
     settings.transfer.points =
         Some(vec![[0.0, 0.2, 0.4, 1.0, 0.0], [0.25, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.5]]);
-    settings.image.size = [41, 31];
+    settings.image.size = [33, 25];
     // Not along any axis, edge or diagonal.
     settings.camera.eye = [0.8974, 0.6533, 1.2544];
     settings.sampling.filter = Filter::Exact;
