@@ -12,8 +12,8 @@ use depthleap::read;
 use depthleap::scene::Scene;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
-    Accumulate, ClipSettings, Filter, Last, MeshSettings, MethodName, Offset, Refine, Settings, ShellMode, ShellOrder,
-    ShellSum, Shows, VolumeTexture,
+    Accumulate, ClipSettings, Filter, Find, Last, MeshSettings, MethodName, Offset, Refine, Settings, ShellMode,
+    ShellOrder, ShellSum, Shows, VolumeTexture,
 };
 use depthleap::scene::shells::ShellDepth;
 use depthleap::truth::exact::ExactIntegrator;
@@ -318,7 +318,7 @@ fn refused(settings: &Settings) -> String {
 #[test]
 fn what_shells_cannot_draw_is_refused_with_a_reason() {
     type Change = fn(&mut Settings);
-    let cases: [(Change, &str); 19] = [
+    let cases: [(Change, &str); 20] = [
         (|s| s.shells.mode = None, "--shells max"),
         (|s| s.shells.count = 0, "shells.count"),
         (|s| s.shells.count = 1000, "shells.count"),
@@ -328,6 +328,7 @@ fn what_shells_cannot_draw_is_refused_with_a_reason() {
         (|s| s.shells.a = -1.0, "shells.a"),
         (|s| s.shells.disabled = vec![12], "number 12"),
         (|s| (s.shells.mode, s.shells.a) = (Some(ShellMode::Surface), 0.5), "depth cue"),
+        (|s| (s.shells.mode, s.surface.find) = (Some(ShellMode::Surface), Find::Range), "--find range"),
         (|s| (s.shells.mode, s.surface.iso) = (Some(ShellMode::Surface), Some(0.5)), "leave one of them out"),
         (
             |s| (s.shells.mode, s.shells.disabled) = (Some(ShellMode::Surface), (1..=11).collect()),

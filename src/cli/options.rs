@@ -12,7 +12,9 @@ use crate::method;
 use crate::part::rows::Method;
 use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
-use crate::scene::settings::{Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode};
+use crate::scene::settings::{
+    Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode, SurfaceSettings,
+};
 use crate::scene::transfer::DEFAULT_PRESET;
 use crate::scene::{builtin, scenes};
 
@@ -137,33 +139,45 @@ pub fn scene_name(settings: &Settings) -> String {
 }
 
 /// What the iso-surfaces of a scene are called: `iso 120`, with how they are found where that is not the usual way.
-/// What is made of how many shells; rays show what more and more of them come to.
-fn shells_name(settings: &Settings) -> String {
-    let shells = &settings.shells;
-    let levels = if shells.shell_levels.is_empty() { shells.count as usize } else { shells.shell_levels.len() };
-    let what = match shells.mode {
-        Some(ShellMode::Max) | None => "the greatest",
-        Some(ShellMode::Sum) => "the sum",
-        Some(ShellMode::Surface) => "the outermost",
-    };
-    format!("{what} of {} shells", levels.saturating_sub(shells.disabled.len()))
-}
-
 fn surface_name(settings: &Settings) -> String {
-    let (surface, asked) = (&settings.surface, settings.surface.asked());
-    let mut name = match &asked[..] {
+    let asked = settings.surface.asked();
+    let name = match &asked[..] {
         [one] => format!("iso {}", one.iso),
         several => format!("{} iso-surfaces", several.len()),
     };
+    name + &how_found(&settings.surface)
+}
+
+/// What is made of shells; how many there are says a note on their triangles.
+fn shells_name(settings: &Settings) -> String {
+    let shells = &settings.shells;
+    match shells.mode {
+        Some(ShellMode::Max) | None => "greatest emission".to_owned(),
+        Some(ShellMode::Sum) => "sum of emissions".to_owned(),
+        Some(ShellMode::Surface) => {
+            let mut levels = shells.shell_levels.clone();
+            levels.sort_by(f64::total_cmp);
+            levels.dedup();
+            let numbered = (1..).zip(&levels);
+            let outermost = numbered.into_iter().find(|(number, _)| !shells.disabled.contains(number));
+            let name = outermost.map_or("outermost shell".to_owned(), |(_, level)| format!("shell at {level}"));
+            name + &how_found(&settings.surface)
+        }
+    }
+}
+
+/// How surfaces are found, where that is not as usual.
+fn how_found(surface: &SurfaceSettings) -> String {
+    let mut words = String::new();
     if surface.find == Find::Range {
-        name += " as a range";
+        words += " as a range";
     }
     match surface.refine {
-        Refine::None => name += ", not refined",
+        Refine::None => words += ", not refined",
         Refine::Linear => {}
-        Refine::Exact => name += ", to the root",
+        Refine::Exact => words += ", to the root",
     }
-    name
+    words
 }
 
 /// The names of methods, each with what it is.

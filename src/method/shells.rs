@@ -42,11 +42,8 @@ fn takes(scene: &Scene) -> Result<()> {
         () if scene.surface.is_some() && mode != ShellMode::Surface => {
             refused("draws no iso-surfaces but shells", "use --shells surface, or leave the surface out (--iso)")
         }
-        () if !scene.clip_planes().is_empty() || !polygons.clips().is_empty() || scene.clip_volume.is_some() => {
+        () if !scene.clip_planes().is_empty() || !polygons.clips().is_empty() => {
             refused("draws whole shells, which nothing cuts", "use a ray caster, or leave out [[clip]] (--clip-plane)")
-        }
-        () if scene.backdrop.is_some() => {
-            refused("shows nothing behind the volume", "use a ray caster, or leave the background out (--behind)")
         }
         () if mode == ShellMode::Surface && scene.settings.surface.find == Find::Range => refused(
             "draws the surface of a value, and surface.find (--find range) asks for all values about it",

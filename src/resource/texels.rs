@@ -112,8 +112,9 @@ impl<'a> Texels<'a> {
 /// A level, in x, among the values of a texture that keeps a field so: voxels whose x is not below it are those whose texels are not below
 /// this. Of codes it lies in the middle between two, so that it does not matter how a device rounds them.
 pub fn threshold(field: &Field, kept: Coding, level: f32) -> f32 {
+    let map = TextureMap::of(field, kept);
     if kept == Coding::Float || texel_type(field).is_none() || field.has_empty_range() {
-        return level;
+        return map.value(level.into()) as f32;
     }
     // The least whole number whose x is not below the level; numbers of the types that have codes have 16 bits at the most.
     let (mut below, mut not_below) = (i32::from(i16::MIN) - 1, i32::from(u16::MAX) + 1);
@@ -124,8 +125,8 @@ pub fn threshold(field: &Field, kept: Coding, level: f32) -> f32 {
             false => not_below = middle,
         }
     }
-    let ([low, high], TextureMap { scale, offset }) = (field.range, TextureMap::of(field, kept));
-    (scale * ((f64::from(not_below) - 0.5 - low) / (high - low)) + offset) as f32
+    let [low, high] = field.range;
+    map.value((f64::from(not_below) - 0.5 - low) / (high - low)) as f32
 }
 
 /// The type of a field's voxels, where textures may hold their codes.
