@@ -22,7 +22,8 @@ pub use kw03::KW03;
 pub use rows::{Rate, RateLine, RateRatio, explained, rate, rate_lines, rate_verdicts};
 pub use run::{TimingPlan, effort, file_of, settings_of, time_rates, turned};
 pub use stegmaier::STEGMAIER;
-pub(super) use tables::{absent_rates, present_rates, rate_remarks, rates_sweep, rates_table};
+pub use tables::rate_remarks;
+pub(super) use tables::{absent_rates, present_rates, rates_sweep, rates_table};
 
 /// Every table of frame rates, in the order of reports.
 pub const RATE_TABLES: [&RateTable; 3] = [&STEGMAIER, &KW03, &HEIDRICH];
