@@ -29,7 +29,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 83] = [
+const KINDS: [(&str, Change); 82] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -107,11 +107,6 @@ const KINDS: [(&str, Change); 83] = [
     ("shells, the outermost one in light, with a box through it", |s| {
         (s.shells.mode, s.shells.shell_levels) = (Some(ShellMode::Surface), vec![90.0, 150.0]);
         s.meshes = vec![across(1.0)];
-    }),
-    ("shells, the outermost one in lights of two colours, reflecting, by gradients in a texture", |s| {
-        (s.shells.mode, s.shells.shell_levels) = (Some(ShellMode::Surface), vec![100.0]);
-        (s.lights, s.environment.builtin) = (two_lights(), Some("sky".to_owned()));
-        s.shading = gradients(GradientOperator::Sobel, GradientTexture::Rgba32f);
     }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),

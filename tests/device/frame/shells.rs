@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use depthleap::method::SHELLS;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Filter, MeshSettings, Settings, ShellMode, ShellOrder, ShellSum};
+use depthleap::scene::settings::{
+    Filter, GradientOperator, GradientTexture, Gradients, LightSettings, MeshSettings, Settings, ShellMode, ShellOrder,
+    ShellSum,
+};
 use depthleap::vulkan::Device;
 
 use super::compare::{SAME_SUM, counts, difference, same_picture};
@@ -13,7 +16,7 @@ use crate::harness::{Test, test};
 
 type Change = fn(&mut Settings);
 
-const SCENES: [(&str, &str, Change); 12] = [
+const SCENES: [(&str, &str, Change); 13] = [
     ("greatest", "gaussian:12x10x8", |s| s.shells.mode = Some(ShellMode::Max)),
     ("greatest_by_depth", "gaussian:10x11x9", |s| {
         s.shells.mode = Some(ShellMode::Max);
@@ -48,6 +51,15 @@ const SCENES: [(&str, &str, Change); 12] = [
     ("outermost_from_within", "gaussian:9", |s| {
         s.shells.mode = Some(ShellMode::Surface);
         (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
+    }),
+    ("outermost_in_two_colours_by_gradients_in_a_texture", "gaussian:9", |s| {
+        s.shells.mode = Some(ShellMode::Surface);
+        (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4]);
+        let light = |direction, color| LightSettings { direction: Some(direction), color, ..LightSettings::default() };
+        s.lights = vec![light([1.0, 0.4, 0.2], [0.9, 0.2, 0.1]), light([-0.3, 1.0, 0.5], [0.1, 0.3, 0.8])];
+        (s.shading.gradients, s.shading.gradient) = (Gradients::Precomputed, GradientOperator::Sobel);
+        s.shading.format = GradientTexture::Rgba32f;
+        (s.environment.builtin, s.environment.reflectivity) = (Some("sky".to_owned()), 0.2);
     }),
     ("crossings_with_surfaces", "gaussian:10", |s| {
         (s.shells.mode, s.shells.sum) = (Some(ShellMode::Sum), ShellSum::Crossings);
