@@ -7,6 +7,9 @@
 // Nodes on each side that are no voxels.
 const int MARGIN = 2;
 
+// Entries of shell_sums that one invocation sums up (`SUMMED` in src/resource/shells.rs).
+const uint SUMMED = 64u;
+
 struct Word {
     // Its place in the row.
     uint at;

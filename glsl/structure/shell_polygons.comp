@@ -25,12 +25,12 @@ uvec2 before(uint word) {
     uint count = words(slice.cells_x) * slice.cells_y * slice.cells_z;
     while (true) {
         sum += shell_sums.sums[first + word];
-        if (count <= 64u) {
+        if (count <= SUMMED) {
             return sum;
         }
         first += count;
-        count = (count + 63u) / 64u;
-        word /= 64u;
+        count = (count + SUMMED - 1u) / SUMMED;
+        word /= SUMMED;
     }
 }
 

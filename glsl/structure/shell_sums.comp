@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shared/slice.glsl"
+#include "shared/shell_lattice.glsl"
 
 layout(set = 0, binding = 39, std430) buffer ShellSums {
     uvec2 sums[];
@@ -14,9 +14,9 @@ void main() {
     if (index >= slice.end) {
         return;
     }
-    uint end = min(index * 64u + 64u, slice.stride);
+    uint end = min((index + 1u) * SUMMED, slice.stride);
     uvec2 before = uvec2(0u);
-    for (uint i = index * 64u; i < end; ++i) {
+    for (uint i = index * SUMMED; i < end; ++i) {
         uvec2 here = shell_sums.sums[slice.inner + i];
         shell_sums.sums[slice.inner + i] = before;
         before += here;

@@ -34,6 +34,11 @@ pub struct ResourceInfo {
 }
 
 impl ResourceInfo {
+    /// A buffer that a build needs meanwhile; it is gone with the build, whatever that depends on.
+    pub const fn passing(name: &'static str, holds: &'static str, bytes: Bytes) -> Self {
+        Self { name, holds, kind: ResourceKind::Storage(bytes), life: Life::Volume, origin: Origin::Passing }
+    }
+
     /// What the host has anew for every frame.
     pub const fn of_frame(
         name: &'static str,

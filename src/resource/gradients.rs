@@ -38,13 +38,8 @@ const TEXEL_BYTES: Bytes = |facts: &Facts, _| gradient_bytes(facts.scene);
 
 /// Gradients on their way to the texture.
 pub const GRADIENT_TEXELS: Resource = Resource::new(&GRADIENT_TEXELS_INFO);
-static GRADIENT_TEXELS_INFO: ResourceInfo = ResourceInfo {
-    name: "gradient_texels",
-    holds: "texels of `gradients`, x fastest",
-    kind: ResourceKind::Storage(TEXEL_BYTES),
-    life: Life::Volume,
-    origin: Origin::Passing,
-};
+static GRADIENT_TEXELS_INFO: ResourceInfo =
+    ResourceInfo::passing("gradient_texels", "texels of `gradients`, x fastest", TEXEL_BYTES);
 
 /// Bytes of the gradients of a scene's volume.
 pub fn gradient_bytes(scene: &Scene) -> u64 {

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::part::resource::{Bytes, Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
+use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::shells::{CASES, Faces, Lattice, Shell, ShellDepth};
 use crate::scene::{Field, Scene};
 use crate::shared;
@@ -60,18 +60,13 @@ pub fn sum_counts(field: &Field) -> Vec<usize> {
     counts
 }
 
-/// A buffer that a build needs meanwhile.
-const fn passing(name: &'static str, holds: &'static str, bytes: Bytes) -> ResourceInfo {
-    let kind = ResourceKind::Storage(bytes);
-    ResourceInfo { name, holds, kind, life: Life::Volume, origin: Origin::Passing }
-}
-
 /// Which nodes of the lattice are not below the level.
 pub const SHELL_SIDES: Resource = Resource::new(&SHELL_SIDES_INFO);
-static SHELL_SIDES_INFO: ResourceInfo =
-    passing("shell_sides", "a bit a node of the lattice: whether its value is not below the level", |facts, _| {
-        (size_of::<u32>() * lattice_words(&facts.scene.field)) as u64
-    });
+static SHELL_SIDES_INFO: ResourceInfo = ResourceInfo::passing(
+    "shell_sides",
+    "a bit a node of the lattice: whether its value is not below the level",
+    |facts, _| (size_of::<u32>() * lattice_words(&facts.scene.field)) as u64,
+);
 
 fn edge_bytes(field: &Field) -> u64 {
     (size_of::<[u32; 3]>() * lattice_words(field)) as u64
@@ -79,7 +74,7 @@ fn edge_bytes(field: &Field) -> u64 {
 
 /// Which edges of the lattice have a vertex.
 pub const SHELL_EDGES: Resource = Resource::new(&SHELL_EDGES_INFO);
-static SHELL_EDGES_INFO: ResourceInfo = passing(
+static SHELL_EDGES_INFO: ResourceInfo = ResourceInfo::passing(
     "shell_edges",
     "a bit a node for each axis: whether the edge that goes up there has a vertex",
     |facts, _| edge_bytes(&facts.scene.field),
@@ -91,7 +86,7 @@ fn sum_bytes(field: &Field) -> u64 {
 
 /// How many vertices and triangles come before.
 pub const SHELL_SUMS: Resource = Resource::new(&SHELL_SUMS_INFO);
-static SHELL_SUMS_INFO: ResourceInfo = passing(
+static SHELL_SUMS_INFO: ResourceInfo = ResourceInfo::passing(
     "shell_sums",
     "vertices and triangles before a word of nodes among 64 words, those before 64 words among 64 times as many, and so on; in the end all",
     |facts, _| sum_bytes(&facts.scene.field),

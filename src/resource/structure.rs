@@ -118,11 +118,6 @@ const fn built(name: &'static str, holds: &'static str, bytes: Bytes) -> Resourc
     ResourceInfo { name, holds, kind: ResourceKind::Storage(bytes), life: Life::Transfer, origin: Origin::Built }
 }
 
-/// A buffer that a build needs meanwhile.
-const fn passing(name: &'static str, holds: &'static str, bytes: Bytes) -> ResourceInfo {
-    ResourceInfo { origin: Origin::Passing, ..built(name, holds, bytes) }
-}
-
 const BITS: Bytes = |facts, _| 4 * words_of_bits(&grid(facts)) as u64;
 
 /// A bit for each cell: whether it is interesting.
@@ -144,27 +139,30 @@ const SQUARE_BYTES: Bytes = |facts, _| (size_of::<u32>() * grid(facts).count()) 
 /// Squared distances on their way through the axes.
 pub const SQUARES: Resource = Resource::new(&SQUARES_INFO);
 static SQUARES_INFO: ResourceInfo =
-    passing("squares", "squared distance to the nearest interesting cell so far", SQUARE_BYTES);
+    ResourceInfo::passing("squares", "squared distance to the nearest interesting cell so far", SQUARE_BYTES);
 
 /// Squared distances after the second axis, where the first is needed again.
 pub const SQUARES_AFTER: Resource = Resource::new(&SQUARES_AFTER_INFO);
-static SQUARES_AFTER_INFO: ResourceInfo = passing("squares_after", "as `squares`, after one more axis", SQUARE_BYTES);
+static SQUARES_AFTER_INFO: ResourceInfo =
+    ResourceInfo::passing("squares_after", "as `squares`, after one more axis", SQUARE_BYTES);
 
 /// Distances on their way to the texture.
 pub const DISTANCE_BYTES: Resource = Resource::new(&DISTANCE_BYTES_INFO);
 static DISTANCE_BYTES_INFO: ResourceInfo =
-    passing("distance_bytes", "texels of `nearest_distance`", |facts, _| match octants(facts) {
+    ResourceInfo::passing("distance_bytes", "texels of `nearest_distance`", |facts, _| match octants(facts) {
         1 => 4 * words_of_bytes(grid(facts).cells) as u64,
         octants => (octants * grid(facts).count()) as u64,
     });
 
 /// Distances for boxes of 2^3 cells, from which those of cells go on.
 pub const BOXES_2: Resource = Resource::new(&BOXES_2_INFO);
-static BOXES_2_INFO: ResourceInfo = passing("boxes_2", "distances for boxes of 2^3 cells", |facts, _| boxes(facts, 2));
+static BOXES_2_INFO: ResourceInfo =
+    ResourceInfo::passing("boxes_2", "distances for boxes of 2^3 cells", |facts, _| boxes(facts, 2));
 
 /// Distances for boxes of 4^3 cells.
 pub const BOXES_4: Resource = Resource::new(&BOXES_4_INFO);
-static BOXES_4_INFO: ResourceInfo = passing("boxes_4", "distances for boxes of 4^3 cells", |facts, _| boxes(facts, 4));
+static BOXES_4_INFO: ResourceInfo =
+    ResourceInfo::passing("boxes_4", "distances for boxes of 4^3 cells", |facts, _| boxes(facts, 4));
 
 fn boxes(facts: &Facts, side: usize) -> u64 {
     4 * words_of_bytes(grid(facts).cells.map(|n| n.div_ceil(side))) as u64
