@@ -75,6 +75,9 @@ fn every_method_draws_a_scene_and_every_scene_has_a_name_of_its_own() {
 /// Frames of more passes show no more, and take some drivers minutes.
 const MOST_PASSES: u32 = 16;
 
+/// The same of cells, by a bound of how many a ray goes through.
+const MOST_PASSES_OF_CELLS: u32 = 32;
+
 /// The same of slices, which reach from the nearest corner of the volume to the farthest: that is longer than any ray.
 const MOST_PASSES_OF_SLICES: u32 = 20;
 
@@ -84,7 +87,11 @@ fn frames_are_small() {
         for (view, scene) in scenes::views(&scene) {
             for method in scenes::methods(&scene) {
                 let passes = plan(&scenes::by(&scene, method), method.papers).unwrap().passes;
-                let most = if method.stack().is_some() { MOST_PASSES_OF_SLICES } else { MOST_PASSES };
+                let most = match () {
+                    () if method.stack().is_some() => MOST_PASSES_OF_SLICES,
+                    () if method.goes_through_cells() => MOST_PASSES_OF_CELLS,
+                    () => MOST_PASSES,
+                };
                 assert!((1..=most).contains(&passes), "{name}, {view}: {passes} passes");
             }
         }

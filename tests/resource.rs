@@ -66,7 +66,11 @@ fn scenes() -> Vec<Scene> {
     bent.backdrop = Some(Arc::new(Backdrop { pattern: Pattern::Picture(picture), distance: 0.5 }));
     let cut_there = scene(|s| s.method.slice_cut = SliceCut::Device);
     let shells = scene(|s| s.shells.mode = Some(ShellMode::Sum));
+    let within = scene(|s| {
+        (s.volume.builtin, s.camera.eye) = (Some("tets-ball:2".to_owned()), [0.1, 0.05, 0.02]);
+    });
     vec![
+        within,
         shells,
         cut_there,
         aside,

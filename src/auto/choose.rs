@@ -57,6 +57,12 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
     if !scene.settings.method.name.is_auto() {
         return Ok(None);
     }
+    if scene.tetrahedra.is_some() {
+        // Those of cells differ in little, and none is weighed.
+        let cells = METHODS.into_iter().find(|method| method.goes_through_cells() && method.loops());
+        scene.settings.method.name = cells.map_or_else(Default::default, Method::name);
+        return Ok(None);
+    }
     let begin = ThreadTime::now();
     let mut record = choose(scene, facts)?;
     let Estimate { method, samples_per_pass, lookups, cell, .. } = &record.chosen;

@@ -108,8 +108,8 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
     let costs = match method.traversal {
         Traversal::FragmentLoop | Traversal::ComputeLoop => &LOOP,
         Traversal::Passes if method.fused => &FUSED,
-        // Nobody weighs shells.
-        Traversal::Passes | Traversal::Shells => &PASSES,
+        // Nobody weighs shells, or cells.
+        Traversal::Passes | Traversal::Shells | Traversal::Cells(_) => &PASSES,
         Traversal::Slices(_) => &SLICES,
     };
     let [each, of_shown] = fetches(scene);

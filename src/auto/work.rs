@@ -160,8 +160,8 @@ impl Walk<'_> {
                 Trace { passes: vec![pass], shown: self.shown(0, self.ray.seen.len()) }
             }
             Traversal::Passes | Traversal::Slices(_) if self.decides() => self.in_passes(),
-            // Nobody weighs shells.
-            Traversal::Passes | Traversal::Slices(_) | Traversal::Shells => self.in_all_passes(),
+            // Nobody weighs shells, or cells.
+            Traversal::Passes | Traversal::Slices(_) | Traversal::Shells | Traversal::Cells(_) => self.in_all_passes(),
         }
     }
 

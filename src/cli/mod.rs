@@ -21,7 +21,7 @@ use clap::{Parser, Subcommand};
 
 use crate::error::{Result, shown};
 use crate::measure::write::write_standard_error;
-use crate::scene::{builtin, scenes};
+use crate::scene::{builtin, scenes, tetrahedra};
 use crate::vulkan::{exit_at_once, gave_up};
 
 /// A raw Vulkan volume renderer and bench for depth-bounds culling
@@ -80,8 +80,11 @@ Environment:
 fn built_in() -> String {
     let line = |(name, about): (&str, &str)| format!("\n  {name:<16} {about}");
     let volumes: String = builtin::ALL.iter().map(|row| line((row.name, row.about))).collect();
+    let meshes: String = tetrahedra::builtin::MESHES.iter().map(|row| line((row.name, row.about))).collect();
     let scenes: String = scenes::ALL.iter().map(|row| line((row.name, row.about))).collect();
-    format!("Built-in volumes, builtin:NAME:SIZE:{volumes}\n\nBuilt-in scenes, builtin:NAME:{scenes}")
+    format!(
+        "Built-in volumes, builtin:NAME:SIZE:{volumes}\n\nBuilt-in meshes of tetrahedra, builtin:NAME:SIZE:{meshes}\n\nBuilt-in scenes, builtin:NAME:{scenes}"
+    )
 }
 
 #[derive(Debug, Subcommand)]

@@ -16,7 +16,7 @@ use crate::scene::settings::{
     Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode, SurfaceSettings,
 };
 use crate::scene::transfer::DEFAULT_PRESET;
-use crate::scene::{builtin, scenes};
+use crate::scene::{builtin, scenes, tetrahedra};
 
 /// What to show, how to sample it, and by which passes: all options that have their key in a scene file.
 #[derive(Clone, Debug, Default, Args)]
@@ -81,10 +81,17 @@ fn built_in_settings(spec: &str) -> Result<Settings> {
         return read::settings_of(&format!("builtin:{}", scene.name), scene.text, Path::new(""));
     }
     let name = spec.split_once(':').map_or(spec, |(name, _)| name);
-    builtin::find(name).map_err(|e| {
-        let known = scenes::ALL.map(|scene| scene.name).join(", ");
-        Error { remedy: format!("{}; or of the scenes, which take no size: {known}", e.remedy), ..e }
-    })?;
+    let is_mesh = tetrahedra::builtin::MESHES.iter().any(|mesh| mesh.name == name);
+    if !is_mesh {
+        builtin::find(name).map_err(|e| {
+            let meshes = tetrahedra::builtin::MESHES.each_ref().map(|mesh| mesh.name).join(", ");
+            let known = scenes::ALL.map(|scene| scene.name).join(", ");
+            Error {
+                remedy: format!("{}; of the meshes {meshes}; or of the scenes, which take no size: {known}", e.remedy),
+                ..e
+            }
+        })?;
+    }
     let mut settings = Settings::default();
     settings.volume.builtin = Some(spec.to_owned());
     Ok(settings)

@@ -5,6 +5,7 @@ use crate::part::rows::{Feature, Hook};
 
 /// Colours and opacities of values; without, samples have nothing but their value.
 pub const CLASSIFICATION: Feature = Feature {
+    of_cells: true,
     without: Some("VALUES"),
     ..Feature::at(Hook::Sample, "classification", |context| match context.projection().shows_values() {
         true => Err(format!("{} shows values, not colours", context.projection().name).into()),

@@ -7,6 +7,7 @@ use crate::scene::TransferFunction;
 
 /// Red, green and blue of their own in the transfer function's pieces.
 pub const COLORS: Feature = Feature {
+    of_cells: true,
     constants: |context| vec![("GREY", u32::from(!context.has(&COLORS)))],
     ..Feature::at(Hook::Sample, "colours of the transfer function", needed)
 };

@@ -6,6 +6,7 @@
 mod apart;
 pub mod backdrop;
 mod block_ranges;
+pub mod cells;
 mod classification;
 pub mod clip_volume;
 mod colors;

@@ -10,6 +10,7 @@ use crate::shared::MOST_FEW_PIECES;
 
 /// Pieces of the transfer function in a buffer, and the search for the piece of a value.
 pub const TRANSFER_FUNCTION: Feature = Feature {
+    of_cells: true,
     constants,
     reads: |context| {
         vec![match (context.has(&FEW_PIECES), context.has(&COLORS)) {
@@ -28,6 +29,7 @@ pub const TRANSFER_FUNCTION: Feature = Feature {
 /// So few pieces that all of them are looked at, without a search: constants of all invocations, where a search reads a storage buffer
 /// at another place in each.
 pub const FEW_PIECES: Feature = Feature {
+    of_cells: true,
     with: Some("FEW_PIECES"),
     ..Feature::at(Hook::Sample, "few pieces", |context| {
         let few = context.scene.transfer.knots().len() <= MOST_FEW_PIECES;

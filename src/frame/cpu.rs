@@ -10,6 +10,7 @@ use crate::projection::{self, surface_values};
 use crate::scene::Scene;
 use crate::scene::texture::{TextureChoice, TextureMap};
 use crate::scene::view::View;
+use crate::truth::exact::Absorber;
 use crate::twin::{Effect, LeavingRay, MetSurface, Pixel, Twin};
 
 /// What a frame leaves when it runs in f64.
@@ -107,10 +108,13 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let surface_values: Vec<[f64; 2]> =
         surface_values(scene, map).into_iter().map(|values| values.map(|value| map.x(value))).collect();
     let lights = scene.shining();
+    let medium = Absorber::new(&scene.transfer);
     let twin = Twin {
         scene,
         rays: plan.view.rays,
         slices: plan.view.slices.as_deref(),
+        cells: plan.view.cells.as_deref(),
+        medium: Some(&medium),
         passes: plan.passes,
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),

@@ -179,6 +179,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     Ok(Scene {
         settings,
         field,
+        tetrahedra: None,
         transfer,
         camera,
         polygons,

@@ -2,12 +2,14 @@
 //!
 //! To add one: a file here with its row, its vertex shader in `glsl`, and a row for its corners in [`mod@crate::resource`].
 
+mod boundary;
 mod polygons;
 mod screen;
 mod shells;
 mod slices;
 mod volume_box;
 
+pub use boundary::BOUNDARY;
 pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
 pub use shells::{SHELL_SURFACES, SHELLS};

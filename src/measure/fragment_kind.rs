@@ -1,7 +1,7 @@
 //! What a fragment of a method is: counts of one kind say nothing beside those of another.
 
 use crate::method;
-use crate::part::rows::Traversal;
+use crate::part::rows::{CellWalk, Traversal};
 
 /// What a main fragment stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +16,8 @@ pub enum FragmentKind {
     Sample,
     /// A place where a ray meets a shell.
     Crossing,
+    /// A cell that a ray goes through.
+    Cell,
 }
 
 impl FragmentKind {
@@ -24,8 +26,9 @@ impl FragmentKind {
         let row = method::METHODS.iter().find(|row| row.name == method && row.on_device)?;
         Some(match row.traversal {
             Traversal::Passes => Self::Segment,
-            Traversal::FragmentLoop => Self::Ray,
-            Traversal::ComputeLoop => Self::Pixel,
+            Traversal::FragmentLoop | Traversal::Cells(CellWalk::FragmentLoop) => Self::Ray,
+            Traversal::ComputeLoop | Traversal::Cells(CellWalk::ComputeLoop) => Self::Pixel,
+            Traversal::Cells(CellWalk::Passes) => Self::Cell,
             Traversal::Slices(_) => Self::Sample,
             Traversal::Shells => Self::Crossing,
         })
@@ -39,6 +42,7 @@ impl FragmentKind {
             Self::Pixel => "invocations",
             Self::Sample => "samples",
             Self::Crossing => "crossings",
+            Self::Cell => "cells",
         }
     }
 
@@ -52,6 +56,9 @@ impl FragmentKind {
             }
             Self::Sample => Some("a fragment is a sample: it has one on each slice"),
             Self::Crossing => Some("a fragment is a place where a ray meets a shell"),
+            Self::Cell => Some(
+                "a fragment is a cell that a ray goes through, or nothing where its ray has ended in the pass before",
+            ),
         }
     }
 
@@ -62,6 +69,7 @@ impl FragmentKind {
             Self::Ray | Self::Pixel => Some("a fragment is a ray here, not a segment of one"),
             Self::Sample => Some("a fragment is a sample here, not a segment of several"),
             Self::Crossing => Some("a fragment is a place where a ray meets a shell here, not a segment of samples"),
+            Self::Cell => Some("a fragment is a cell here, not a segment of samples"),
         }
     }
 }

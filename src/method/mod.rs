@@ -13,6 +13,7 @@ mod rows;
 mod shells;
 mod single_pass;
 mod slices;
+mod tetrahedra;
 
 pub use cpu::CPU;
 pub use fused::{NN_CONE_FUSED, NN_DIRECTIONAL_FUSED, NN_OMNI_FUSED, NN_OPTIMAL_FUSED};
@@ -30,6 +31,8 @@ pub use slices::{
     SLICES_3D_OMNI, SLICES_SHELLS, SLICES_SHELLS_BLOCK, SLICES_SHELLS_FTB, SLICES_SHELLS_OMNI,
 };
 
+pub use tetrahedra::{TET_PROPAGATION, TET_SINGLE_PASS, TET_SINGLE_PASS_COMPUTE};
+
 use std::str::FromStr;
 
 use serde::de::Error as _;
@@ -42,7 +45,7 @@ use crate::scene::Scene;
 use crate::scene::settings::MethodName;
 
 /// Every method, in the order of tables and of the help.
-pub const METHODS: [&Method; 33] = [
+pub const METHODS: [&Method; 36] = [
     &RC,
     &RC_ERT,
     &RC_BLOCK,
@@ -75,6 +78,9 @@ pub const METHODS: [&Method; 33] = [
     &SLICES_SHELLS_BLOCK,
     &SLICES_SHELLS_OMNI,
     &SHELLS,
+    &TET_PROPAGATION,
+    &TET_SINGLE_PASS,
+    &TET_SINGLE_PASS_COMPUTE,
     &CPU,
 ];
 

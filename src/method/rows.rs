@@ -3,7 +3,8 @@
 use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
-use crate::feature::{BACKDROP, clip_volume, light_paths, refraction, surface};
+use crate::feature::{BACKDROP, cells, clip_volume, light_paths, refraction, surface};
+use crate::geometry::BOX_FRONT;
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -21,7 +22,7 @@ use crate::scene::settings::{Cull, Mark};
 const STEPS_BEFORE: usize = 64;
 
 /// The bound of main passes that are switched on and off only: rays that go on hold 0, others 0.5 or 1.
-const SWITCH: f32 = 0.25;
+pub const SWITCH: f32 = 0.25;
 
 /// The papers' form of the ray casters: the early z-test, and depth written by the shader [KW03 §2.1].
 pub const EARLY_Z: Option<Form> = Some(Form { cull: Cull::Ztest, mark: Mark::Fragdepth });
@@ -49,6 +50,7 @@ pub const RAY_CASTER: Method = Method {
 
 /// Takes every scene but those that ask for what one loop alone can do.
 pub fn takes_in_passes(scene: &Scene) -> Result<()> {
+    cells::takes_voxels(scene)?;
     surface::check_opaque(scene)?;
     light_paths::check_passes(scene)?;
     refraction::check_passes(scene)?;
@@ -194,6 +196,6 @@ pub fn decided(context: &Context, steps: &mut Steps, pass: u32, beside: Option<R
         steps.push(mark_copy::mark_copy(pass));
     }
     if context.has(&COUNTING) && pass > 0 && pass.is_multiple_of(BATCH) {
-        steps.push(alive::alive(pass, beside));
+        steps.push(alive::alive(&BOX_FRONT, pass, beside));
     }
 }

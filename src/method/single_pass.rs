@@ -2,6 +2,7 @@
 //! `+compute`: the same loop in a compute shader.
 
 use super::rows::{RAY_CASTER, cast};
+use crate::feature::cells::takes_voxels;
 use crate::part::rows::{Ahead, Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::pass::single_pass::{single_pass, single_pass_compute};
@@ -12,7 +13,7 @@ const fn row(name: &'static str, about: &'static str, ahead: Ahead, skips_of: Op
         name,
         about,
         source: "Stegmaier05 §5",
-        takes: |_| Ok(()),
+        takes: takes_voxels,
         papers: None,
         forms: Vec::new,
         ahead,

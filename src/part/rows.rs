@@ -41,6 +41,19 @@ pub enum Traversal {
     Slices(Stack),
     /// Nothing: nested iso-surfaces are drawn as polygons [Heidrich95 §2].
     Shells,
+    /// The cells of a mesh, from each to the next [Weiler03].
+    Cells(CellWalk),
+}
+
+/// What goes from cell to cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellWalk {
+    /// Main passes, a cell each.
+    Passes,
+    /// The loop of a fragment shader.
+    FragmentLoop,
+    /// The same loop in a compute shader.
+    ComputeLoop,
 }
 
 /// A renderer. The list of them is `crate::method::METHODS`.
@@ -123,20 +136,29 @@ impl Method {
 
     /// Whether one shader holds the whole ray, so that nothing decides between main passes and nothing is culled.
     pub fn loops(&self) -> bool {
-        matches!(self.traversal, Traversal::FragmentLoop | Traversal::ComputeLoop)
+        match self.traversal {
+            Traversal::FragmentLoop | Traversal::ComputeLoop => true,
+            Traversal::Cells(walk) => walk != CellWalk::Passes,
+            Traversal::Passes | Traversal::Slices(_) | Traversal::Shells => false,
+        }
     }
 
     /// How its slices lie; none where it has none.
     pub fn stack(&self) -> Option<Stack> {
         match self.traversal {
             Traversal::Slices(stack) => Some(stack),
-            Traversal::Passes | Traversal::FragmentLoop | Traversal::ComputeLoop | Traversal::Shells => None,
+            _ => None,
         }
     }
 
     /// Whether its picture is made of samples: those of other methods differ from it by more than samples of another step do.
     pub fn takes_samples(&self) -> bool {
-        self.traversal != Traversal::Shells
+        !matches!(self.traversal, Traversal::Shells | Traversal::Cells(_))
+    }
+
+    /// Whether its rays go through the cells of a mesh.
+    pub fn goes_through_cells(&self) -> bool {
+        matches!(self.traversal, Traversal::Cells(_))
     }
 
     /// Whether slices are drawn back to front, all of them in one pass.
@@ -212,6 +234,8 @@ pub struct Feature {
     pub constants: fn(&Context) -> Vec<Constant>,
     /// What shaders read that have it.
     pub reads: fn(&Context) -> Vec<Resource>,
+    /// Whether ways through cells are classified by it, too.
+    pub of_cells: bool,
 }
 
 impl Feature {
@@ -225,6 +249,7 @@ impl Feature {
             without: None,
             constants: |_| Vec::new(),
             reads: |_| Vec::new(),
+            of_cells: false,
         }
     }
 
@@ -291,7 +316,8 @@ impl<'a> Context<'a> {
 
     /// Whether the frame has a feature, else why not.
     pub fn answer(&self, feature: &Feature) -> Result<(), Why> {
-        if matches!(feature.at, Hook::Ray | Hook::Sample) && !self.method.takes_samples() {
+        let of_cells = self.method.goes_through_cells() && feature.of_cells;
+        if matches!(feature.at, Hook::Ray | Hook::Sample) && !self.method.takes_samples() && !of_cells {
             return Err(Why::Untold);
         }
         // It differs from part to part of a ray, and is soon answered.

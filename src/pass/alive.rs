@@ -2,9 +2,9 @@
 
 use ash::vk;
 
-use crate::geometry::BOX_FRONT;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
+use crate::part::geometry::Geometry;
 use crate::part::resource::Resource;
 use crate::part::{DepthTest, Draw, Group, Step, Work};
 use crate::resource;
@@ -13,12 +13,12 @@ use crate::twin::section::WAITING;
 /// Sections and skipped segments stay at or below 0.5.
 const ALIVE: f32 = WAITING;
 
-/// Counts before main pass `pass`, by a depth test that every device has.
+/// Counts before main pass `pass`, by a depth test that every device has, in the pixels that `geometry` covers.
 ///
 /// `beside`: a colour target that is attached for nothing. Mesa 26's lavapipe forgets that attachments blend each in its
 /// own way once a step without colour attachments was drawn: marks beside a blended RES would be blended too, and lost.
-pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
-    let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::DepthTest.of(resource::STORED)];
+pub fn alive(geometry: &'static Geometry, pass: u32, beside: Option<Resource>) -> Step {
+    let mut accesses = vec![Usage::Vertices.of(geometry.vertices), Usage::DepthTest.of(resource::STORED)];
     accesses.extend(beside.map(|target| Usage::ColorKept.of(target)));
     Step::new(
         format!("alive #{pass}"),
@@ -26,8 +26,8 @@ pub fn alive(pass: u32, beside: Option<Resource>) -> Step {
         pass,
         accesses,
         Work::Draw(Draw {
-            geometry: &BOX_FRONT,
-            vertices: BOX_FRONT.vertices,
+            geometry,
+            vertices: geometry.vertices,
             depths: [ALIVE; 2],
             least: 0.0,
             bound: ALIVE,

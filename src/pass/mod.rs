@@ -27,3 +27,4 @@ pub mod single_pass;
 pub mod slices;
 pub mod start;
 pub mod termination;
+pub mod tetrahedra;

@@ -34,11 +34,7 @@ pub fn single_pass_compute(context: &Context) -> Step {
     let mut accesses: Vec<Access> = of_loop.read(Usage::ComputeRead).collect();
     let written = if of_loop.goes_on { Usage::ImageUpdate } else { Usage::ImageWrite };
     accesses.push(written.of(resource::ACCUMULATED));
-    let format = match context.scene.settings.image.accumulate {
-        Accumulate::Rgba32f => "RGBA32F",
-        Accumulate::Rgba16f => "RGBA16F",
-        Accumulate::Rgba8 => "RGBA8",
-    };
+    let format = compute_format(context.scene.settings.image.accumulate);
     let insert = effect::insert(context);
     let shader = Shader { insert, ..Shader::new("single_pass.comp", of_loop.defines.into_iter().chain([format])) };
     let work = Work::Pixels(PixelDispatch {
@@ -47,6 +43,15 @@ pub fn single_pass_compute(context: &Context) -> Step {
         twin: twin::single_pass::computed,
     });
     Step::new("single_pass_compute".to_owned(), Group::Main, 0, accesses, work)
+}
+
+/// The define of a compute shader that writes RES.
+pub fn compute_format(accumulate: Accumulate) -> &'static str {
+    match accumulate {
+        Accumulate::Rgba32f => "RGBA32F",
+        Accumulate::Rgba16f => "RGBA16F",
+        Accumulate::Rgba8 => "RGBA8",
+    }
 }
 
 /// What the loop is made of, whoever runs it.

@@ -150,9 +150,9 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
 /// # Errors
 /// When it does not, with what to do.
 pub fn check(scene: &Scene) -> Result<()> {
-    crate::truth::preintegrated::check(scene)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
+    crate::truth::preintegrated::check(scene)?;
     feature::shells::check(scene, method)?;
     feature::layers::check(scene, method)?;
     feature::surface::check(scene)?;
@@ -188,6 +188,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
             let slices = if method.back_to_front() { None } else { Some(scene.settings.sampling.samples_per_pass) };
             view.sliced(scene, stack, slices)?
         }
+        None if method.goes_through_cells() => view.through_cells(scene),
         None => view,
     };
     if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {
@@ -199,9 +200,9 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
         0 if scene.backdrop.is_none() && !scene.polygons.show() || view.region.pixels() == 0 => {
-            let why = match method.takes_samples() || view.region.pixels() == 0 {
-                true => "no ray of this view meets the volume",
-                false => "no shell has polygons",
+            let why = match method.traversal == Traversal::Shells && view.region.pixels() > 0 {
+                true => "no shell has polygons",
+                false => "no ray of this view meets the volume",
             };
             (Vec::new(), vec![LeftOut::new("every pass", why)])
         }
@@ -232,6 +233,9 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
 
 /// N: main passes of a view.
 fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
+    if let Some(cells) = view.cells.as_ref().filter(|cells| cells.layers() == 0) {
+        return cells.layers();
+    }
     if method.loops() {
         return u32::from(view.longest_samples > 0);
     }
@@ -241,6 +245,10 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
         return shells.map_or(0, |shells| shells.drawn().len() as u32);
     }
     let sampling = &scene.settings.sampling;
+    if let Some(mesh) = scene.tetrahedra.as_ref().filter(|_| method.goes_through_cells()) {
+        let needed = mesh.most_cells(&view.rays);
+        return if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed };
+    }
     if let Some(slices) = &view.slices {
         if view.region.pixels() == 0 {
             return 0;
@@ -282,7 +290,7 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));
         }
-    } else if !context.method.takes_samples() {
+    } else if context.method.traversal == Traversal::Shells {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "each shell is a pass"));
         }

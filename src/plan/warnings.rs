@@ -1,6 +1,7 @@
 //! What is to be known of a picture: what was done to its volume, and what may make it mislead, with what to try.
 
 use super::Plan;
+use crate::part::rows::Traversal;
 use crate::projection;
 use crate::scene::mesh::ClipMesh;
 use crate::scene::range::RangeEnd;
@@ -58,7 +59,7 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     if scene.polygons.show() || scene.backdrop.is_some() {
         return None;
     }
-    if plan.passes == 0 && !plan.method.takes_samples() && plan.view.region.pixels() > 0 {
+    if plan.passes == 0 && plan.method.traversal == Traversal::Shells && plan.view.region.pixels() > 0 {
         return Some(no_shell(scene));
     }
     if plan.passes == 0 {

@@ -18,7 +18,9 @@ mod pick;
 pub mod raw;
 pub mod scene;
 mod source;
+mod tetrahedra;
 pub mod transfer;
+mod values;
 mod voxels;
 
 use std::fs::File;
@@ -31,6 +33,7 @@ pub use environment::environment;
 pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};
 pub use scene::{scene, scene_of, settings, settings_from_json, settings_of};
+pub use tetrahedra::tetrahedra;
 pub use transfer::transfer;
 
 use self::packed::{Members, Packing};

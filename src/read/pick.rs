@@ -28,7 +28,7 @@ pub struct Combined {
 }
 
 /// Red, green and blue of ITU-R Rec. 709 in its luminance.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 impl Picked {
     /// The volume's voxels. Picking keeps their type; combined ones are f32, or f64 where single precision does not

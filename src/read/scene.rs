@@ -9,14 +9,16 @@ use serde_json::Value;
 use super::{ByteSkip, RawLayout, ReadChoice};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::HalfSpace;
+use crate::scene::field::{Hull, Missing, NanPolicy};
 use crate::scene::mesh::{Keep, Mesh, shape};
 use crate::scene::mesh_field::{self, DEFAULT_BAND};
 use crate::scene::settings::{
     ClipSettings, Endian, Placed, RAW_SKIP, RAW_SPACING, Settings, ShellMode, VolumeSettings,
 };
+use crate::scene::volume::VoxelType;
 use crate::scene::{
-    Camera, ClipPlanes, ClipVolume, Field, Polygons, Scene, Shells, Surface, TextureUnit, TransferFunction, Volume,
-    builtin,
+    Camera, ClipPlanes, ClipVolume, Content, Field, Polygons, Scene, Shells, Surface, Tetrahedra, TextureUnit,
+    TransferFunction, Volume, builtin, tetrahedra,
 };
 
 /// The settings in a scene file; its relative paths are made relative to the file at once.
@@ -107,26 +109,26 @@ fn picked(path: &Path) -> (PathBuf, Option<usize>) {
 /// # Errors
 /// When a value lies outside its range, settings contradict each other, or a file is wrong.
 pub fn scene(settings: &Settings) -> Result<Scene> {
-    scene_of(settings, |settings| volume(&settings.volume))
+    scene_of(settings, |settings| content(&settings.volume))
 }
 
-/// The same with a volume from elsewhere.
+/// The same with a volume or a mesh from elsewhere.
 ///
 /// # Errors
 /// As [`scene`].
-pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Volume>) -> Result<Scene> {
+pub fn scene_of<C: Into<Content>>(settings: &Settings, content: impl FnOnce(&Settings) -> Result<C>) -> Result<Scene> {
     settings.check()?;
     let camera = Camera::from(&settings.camera);
     camera.basis()?;
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
     let effect = super::effect(&settings.effects)?.map(Arc::new);
-    let volume = volume(settings)?;
-    let camera = camera.in_axes_of(volume.turn);
-    let polygons = Arc::new(polygons(settings, volume.turn)?);
-    let environment = super::environment(&settings.environment, &polygons, volume.turn)?.map(Arc::new);
+    let (field, tetrahedra) = field_of(content(settings)?.into(), &settings.volume)?;
+    let turn = field.volume.turn;
+    let camera = camera.in_axes_of(turn);
+    let polygons = Arc::new(polygons(settings, turn)?);
+    let environment = super::environment(&settings.environment, &polygons, turn)?.map(Arc::new);
     let backdrop = super::backdrop(&settings.effects)?.map(Arc::new);
-    let back = volume.turn.inverse();
-    let field = Field::of(volume, &settings.volume.normalisation())?;
+    let back = turn.inverse();
     let in_axes = |plane: HalfSpace| HalfSpace { normal: back * plane.normal, ..plane };
     let planes = settings.clips.iter().filter_map(ClipSettings::half_space).map(in_axes);
     let planes = ClipPlanes::new(planes, 0.5 * field.extent());
@@ -143,6 +145,7 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
     Ok(Scene {
         settings,
         field,
+        tetrahedra: tetrahedra.map(Arc::new),
         transfer,
         camera,
         polygons,
@@ -156,6 +159,29 @@ pub fn scene_of(settings: &Settings, volume: impl FnOnce(&Settings) -> Result<Vo
         effect,
         unit,
     })
+}
+
+/// The values of what is shown, and the mesh whose they are.
+fn field_of(content: Content, settings: &VolumeSettings) -> Result<(Field, Option<Tetrahedra>)> {
+    let how = settings.normalisation();
+    let grid = match content {
+        Content::Voxels(volume) => return Ok((Field::of(volume, &how)?, None)),
+        Content::Cells(grid) => grid,
+    };
+    // What has no value is known by its voxel type and by what stands for none.
+    let missing = Missing { voxel_type: VoxelType::F64, no_data: how.no_data };
+    let grid = match how.nan {
+        NanPolicy::Hole => {
+            let is_missing: Vec<bool> = grid.values.iter().map(|value| missing.is(*value)).collect();
+            grid.without(|point| is_missing[point])
+        }
+        NanPolicy::Replace | NanPolicy::Error => grid,
+    };
+    let grid = grid.cleaned()?;
+    let field = Field::of(grid.as_volume()?, &how)?;
+    let mesh = Tetrahedra::new(&grid, &field.values)?;
+    let hull = Hull { extent: mesh.extent, unit: mesh.unit };
+    Ok((field.within(hull), Some(mesh)))
 }
 
 /// The outermost shell as an iso-surface.
@@ -211,11 +237,63 @@ fn clip_volume(settings: &Settings, field: &Field) -> Result<Option<ClipVolume>>
     ClipVolume::new(volume, iso, keeps_inside, &placed, field.extent(), turn).map(Some)
 }
 
+/// The volume or the mesh that settings name.
+///
+/// # Errors
+/// When they name several, or it cannot be read.
+pub fn content(settings: &VolumeSettings) -> Result<Content> {
+    let mesh = match (&settings.path, &settings.builtin) {
+        (Some(path), None) => super::tetrahedra(path, settings.array.as_deref(), settings.component).transpose(),
+        (None, Some(name)) => tetrahedra::builtin::mesh(name),
+        _ => None,
+    };
+    match mesh {
+        Some(grid) => {
+            of_mesh(settings)?;
+            Ok(Content::Cells(grid?))
+        }
+        None => volume(settings).map(Content::Voxels),
+    }
+}
+
+/// Whether settings ask for nothing that a mesh of cells has no use for.
+fn of_mesh(settings: &VolumeSettings) -> Result<()> {
+    let VolumeSettings { path, component, frame, dims, voxel_type, spacing, endian, skip, band, mesh, array, .. } =
+        settings;
+    let asked = [
+        ("component", component.is_some() && path.is_none()),
+        ("array", array.is_some() && path.is_none()),
+        ("frame", frame.is_some()),
+        ("dims", dims.is_some()),
+        ("type", voxel_type.is_some()),
+        ("spacing", spacing.is_some()),
+        ("endian", endian.is_some()),
+        ("skip", skip.is_some()),
+        ("band", band.is_some()),
+        ("mesh", mesh.is_some()),
+    ];
+    match asked.into_iter().find(|(_, asked)| *asked) {
+        Some((key, _)) => Err(Error::usage(
+            format!("volume.{key} (--{key})"),
+            "is given for a mesh of cells, which has no use for it",
+            "leave it out",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// The volume that settings name.
 ///
 /// # Errors
 /// When they name several, or it cannot be read.
 pub fn volume(settings: &VolumeSettings) -> Result<Volume> {
+    if settings.array.is_some() {
+        return Err(Error::usage(
+            "volume.array (--array)",
+            "is given for a volume of voxels, and names values of a mesh of cells",
+            "leave it out, or give a file of VTK",
+        ));
+    }
     let VolumeSettings { path, builtin, mesh, .. } = settings;
     let sources = [("path", path.is_some()), ("builtin", builtin.is_some()), ("mesh", mesh.is_some())];
     let given: Vec<&str> = sources.into_iter().filter_map(|(key, given)| given.then_some(key)).collect();

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use ash::vk;
 
+use crate::math::bvh::Bounds;
 use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::shared;
 
@@ -64,7 +65,9 @@ static PLACEMENT_INFO: ResourceInfo = ResourceInfo::of_frame(
     ResourceKind::Uniform(|_, _| size_of::<shared::Placement>() as u64),
     |facts| {
         let (view, polygons) = (facts.view, &facts.scene.polygons);
-        let far = polygons.bounds().map_or(1.0, |bounds| view.rays.deepest(bounds.least, bounds.greatest));
+        let half = 0.5 * facts.scene.field.extent();
+        let mesh = facts.scene.tetrahedra.as_ref().map(|_| Bounds { least: -half, greatest: half });
+        let far = polygons.bounds().or(mesh).map_or(1.0, |bounds| view.rays.deepest(bounds.least, bounds.greatest));
         Cow::Owned(bytemuck::bytes_of(&shared::Placement::new(&view.rays, view.size, far)).to_vec())
     },
 );

@@ -14,6 +14,7 @@ mod refraction;
 mod shells;
 mod structure;
 mod surface;
+mod tetrahedra;
 pub mod texels;
 
 pub use clip_volume::{CLIP_VOLUME, CLIP_VOLUME_PLACE};
@@ -37,11 +38,14 @@ pub use structure::{
     SQUARES, SQUARES_AFTER, SUPPORT, WIDE_2, WIDE_4, block_ranges, largest_buffer, words_of_bits, words_of_bytes,
 };
 pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
+pub use tetrahedra::{
+    TET_ACROSS, TET_BEGIN, TET_BOUNDARY, TET_CELL, TET_CELLS, TET_CORNERS, TET_ENTRY, TET_POINT, TET_POINTS, TET_VIEW,
+};
 
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 68] = [
+pub const RESOURCES: [Resource; 78] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -70,6 +74,16 @@ pub const RESOURCES: [Resource; 68] = [
     SHELL_LEVELS,
     SHELL_CUE,
     SHELL_DEPTH,
+    TET_CORNERS,
+    TET_POINTS,
+    TET_CELLS,
+    TET_ACROSS,
+    TET_BOUNDARY,
+    TET_VIEW,
+    TET_BEGIN,
+    TET_ENTRY,
+    TET_CELL,
+    TET_POINT,
     SURFACE_LEVELS,
     LIGHTS,
     WHITE_LIGHTS,

@@ -32,6 +32,13 @@ pub struct Normalisation<'a> {
     pub no_data: &'a [f64],
 }
 
+/// The box around a mesh, in volume space, and the unit of lengths there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hull {
+    pub extent: DVec3,
+    pub unit: f64,
+}
+
 /// A normalised volume. Cells are the boxes between neighbouring voxel centres, (n - 1) of them along a side of
 /// n voxels (1 where n is 1); a border cell reaches out to the face of the volume.
 #[derive(Clone, Debug)]
@@ -47,6 +54,8 @@ pub struct Field {
     /// Voxels without a finite value: NaN, infinite, or no data.
     pub missing: usize,
     no_data: Vec<f64>,
+    /// Where the values are, if not in voxels: at the points of a mesh, which stand in a row here.
+    hull: Option<Hull>,
     /// Found when first asked for.
     extremes: OnceLock<[f32; 2]>,
     contrast: OnceLock<f64>,
@@ -95,6 +104,7 @@ impl Field {
             holes: None,
             missing: bad,
             no_data: how.no_data.to_vec(),
+            hull: None,
             extremes: OnceLock::new(),
             contrast: OnceLock::new(),
             value_extremes: OnceLock::new(),
@@ -104,6 +114,16 @@ impl Field {
             field.holes = Some(field.cells_where(|corner| field.is_missing(corner)));
         }
         Ok(field)
+    }
+
+    /// The same values at the points of a mesh.
+    pub fn within(self, hull: Hull) -> Self {
+        Self { hull: Some(hull), holes: None, ..self }
+    }
+
+    /// Whether the values are those of a mesh's points, so that there are no voxels.
+    pub fn is_of_mesh(&self) -> bool {
+        self.hull.is_some()
     }
 
     /// Whether the voxel has no finite value.
@@ -171,6 +191,9 @@ impl Field {
 
     /// Sides of the volume in volume space: the longest is 1.
     pub fn extent(&self) -> DVec3 {
+        if let Some(hull) = self.hull {
+            return hull.extent;
+        }
         let side: [f64; 3] = std::array::from_fn(|a| self.volume.dims[a] as f64 * self.volume.spacing[a]);
         let longest = side.iter().copied().fold(0.0, f64::max);
         DVec3::from_array(side) / longest
@@ -178,6 +201,9 @@ impl Field {
 
     /// Sides of one voxel in volume space.
     pub fn voxel(&self) -> DVec3 {
+        if let Some(hull) = self.hull {
+            return DVec3::splat(hull.unit);
+        }
         self.extent() / DVec3::from_array(self.volume.dims.map(|n| n as f64))
     }
 

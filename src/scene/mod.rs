@@ -31,6 +31,7 @@ mod sky;
 pub mod slice_polygons;
 pub mod slices;
 pub mod surface;
+pub mod tetrahedra;
 pub mod texture;
 pub mod transfer;
 pub mod view;
@@ -53,15 +54,31 @@ pub use region::Region;
 pub use settings::Settings;
 pub use shells::Shells;
 pub use surface::Surface;
+pub use tetrahedra::Tetrahedra;
 pub use texture::TextureUnit;
 pub use transfer::TransferFunction;
 pub use volume::Volume;
+
+/// What a scene shows.
+#[derive(Clone, Debug)]
+pub enum Content {
+    Voxels(Volume),
+    Cells(tetrahedra::Grid),
+}
+
+impl From<Volume> for Content {
+    fn from(volume: Volume) -> Self {
+        Self::Voxels(volume)
+    }
+}
 
 /// Everything a frame depends on. `settings` alone repeats it.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub settings: Settings,
     pub field: Arc<Field>,
+    /// The mesh whose values the field holds, where it is one of tetrahedra and has no voxels.
+    pub tetrahedra: Option<Arc<Tetrahedra>>,
     pub transfer: TransferFunction,
     pub camera: Camera,
     /// Polygons in and around the volume.

@@ -114,6 +114,9 @@ impl TextureChoice {
             let error = error_of(field, kept, format, filter, &scene.unit);
             Self { kept, format, error, measured: scene.unit.measured || filter != Filter::Hardware }
         };
+        if field.is_of_mesh() {
+            return choice(Coding::Float);
+        }
         match volume.texture {
             VolumeTexture::Native => choice(native(field)),
             VolumeTexture::R16 => choice(Coding::Spread),

@@ -10,6 +10,7 @@ use super::longest::longest_ray;
 use super::region::Region;
 use super::slice_polygons::SlicePolygons;
 use super::slices::{SliceSurface, Slices, Stack};
+use super::tetrahedra::{CellsView, Tetrahedra};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
 use crate::math::ray::ViewRays;
@@ -28,6 +29,8 @@ pub struct View {
     pub longest_samples: u32,
     /// What slice renderers draw; none for others.
     pub slices: Option<Arc<Slices>>,
+    /// What rays meet of a mesh of cells; none for methods that do not go through them.
+    pub cells: Option<Arc<CellsView>>,
     /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
     slice_polygons: Arc<OnceLock<SlicePolygons>>,
 }
@@ -58,7 +61,8 @@ impl View {
             region => region,
         };
         let longest_samples = longest_samples(scene, &rays, region);
-        Ok(Self { size, rays, front, back, region, longest_samples, slices: None, slice_polygons: Arc::default() })
+        let (slices, cells, slice_polygons) = (None, None, Arc::default());
+        Ok(Self { size, rays, front, back, region, longest_samples, slices, cells, slice_polygons })
     }
 
     /// The axis of the stack of 2D textures that slices are taken from; none where they are taken from the volume, or there are none.
@@ -76,6 +80,12 @@ impl View {
     pub fn sliced(self, scene: &Scene, stack: Stack, of_pass: Option<u32>) -> Result<Self> {
         let slices = Some(Arc::new(Slices::new(scene, stack, of_pass)?));
         Ok(Self { slices, slice_polygons: Arc::default(), ..self })
+    }
+
+    /// The same of rays that go through the cells of the scene's mesh.
+    pub fn through_cells(self, scene: &Scene) -> Self {
+        let of = |mesh: &Arc<Tetrahedra>| Arc::new(CellsView::new(mesh, &self.rays, self.region));
+        Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
     }
 
     /// What shows of the slices of the scene that this is a view of; nothing where there are none.

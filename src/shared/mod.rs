@@ -10,6 +10,7 @@ mod shells;
 mod slice;
 mod slices;
 mod surface;
+mod tetrahedra;
 
 pub use bundle::Bundle;
 pub use clip_volume::clip_volume_rows;
@@ -21,6 +22,7 @@ pub use shells::{ShellCue, ShellLevel};
 pub use slice::Slice;
 pub use slices::{SliceCut, Slices};
 pub use surface::{SurfaceLevel, light_rows, surface_levels};
+pub use tetrahedra::TetView;
 
 use bytemuck::{Pod, Zeroable};
 

@@ -23,6 +23,7 @@
 //! Opacity 1: where it holds on a positive length, the ray ends there in that colour. Where it is reached at single
 //! points, sigma has a logarithmic pole, which is integrable: the ray goes on behind it.
 
+mod cells;
 mod clip_volume;
 mod crossings;
 mod cubic;
@@ -49,7 +50,7 @@ use crate::math::ray::{ViewRays, cut_interval};
 use crate::projection::{self, COMPOSITE, Projection};
 use crate::scene::mesh::DividedRay;
 use crate::scene::settings::Filter;
-use crate::scene::{ClipVolume, Field, Polygons, Scene, TransferFunction};
+use crate::scene::{ClipVolume, Field, Polygons, Scene, Tetrahedra, TransferFunction};
 
 /// Transmittance (times the brightest colour) behind which nothing changes a result of order 1 in f64.
 const BLACK: f64 = 1e-17;
@@ -69,6 +70,8 @@ pub struct ExactIntegrator<'a> {
     nearest: bool,
     /// The scene, where its surfaces are drawn.
     surfaces: Option<&'a Scene>,
+    /// The mesh that rays go through in place of voxels.
+    mesh: Option<&'a Tetrahedra>,
 }
 
 /// A transfer function as a medium that light passes through.
@@ -114,6 +117,7 @@ impl<'a> ExactIntegrator<'a> {
             clip: None,
             nearest: false,
             surfaces: None,
+            mesh: None,
         }
     }
 
@@ -126,7 +130,8 @@ impl<'a> ExactIntegrator<'a> {
         let planes = scene.clip_planes();
         let surfaces = scene.surface.is_some().then_some(scene);
         let clip = scene.cutting_volume();
-        Self { nearest, projection, polygons, planes, clip, surfaces, ..Self::new(&scene.field, &scene.transfer) }
+        let mesh = scene.tetrahedra.as_deref();
+        Self { nearest, projection, polygons, planes, clip, surfaces, mesh, ..Self::new(&scene.field, &scene.transfer) }
     }
 
     /// Premultiplied RGBA of `entry + t * direction` for t from 0 to `length`, in volume space and volume units;
@@ -182,6 +187,9 @@ impl<'a> ExactIntegrator<'a> {
             .flat_map_iter(|row| {
                 (0..size[0]).map(move |column| {
                     let ray = rays.of(column, row);
+                    if let Some(mesh) = self.mesh {
+                        return self.through_cells(mesh, &ray, rays.near);
+                    }
                     // Along a view's ray the parameter is depth; lengths are longer by the direction's own.
                     let stretch = ray.direction.length();
                     let between = |enter: f64, leave: f64| {

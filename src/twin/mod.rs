@@ -28,6 +28,7 @@ pub mod slices;
 pub mod start;
 pub mod surface;
 pub mod termination;
+pub mod tetrahedra;
 
 pub use refraction::LeavingRay;
 
@@ -37,10 +38,12 @@ use crate::math::ray::ViewRays;
 use crate::projection::{Levels, Projection};
 use crate::scene::mesh::MOST_CLIPS;
 use crate::scene::slices::Slices;
+use crate::scene::tetrahedra::{CellsView, Entry};
 use crate::scene::{Light, Scene};
 use crate::structure::blocks::Blocks;
 use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
+use crate::truth::exact::Absorber;
 use crate::truth::preintegrated::PreintegratedTable;
 
 /// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
@@ -56,6 +59,10 @@ pub struct Twin<'a> {
     pub rays: ViewRays,
     /// What samples lie on, where they lie on slices.
     pub slices: Option<&'a Slices>,
+    /// What rays meet of a mesh of cells; none for methods that do not go through them.
+    pub cells: Option<&'a CellsView>,
+    /// The transfer function as what light passes through on its way through cells.
+    pub medium: Option<&'a Absorber<'a>>,
     /// N, main passes of the frame.
     pub passes: u32,
     pub distance: Option<&'a DistanceField>,
@@ -130,6 +137,10 @@ pub struct Pixel {
     /// The depth buffer of shells, and how far a rasteriser may see it elsewhere.
     pub shell_depth: f64,
     pub shell_spread: f64,
+    /// The faces by which the ray enters a mesh of cells, layer by layer; none before that was asked.
+    pub entries: Option<Vec<Option<Entry>>>,
+    /// The side by which the ray enters its current cell, and where.
+    pub cell: Option<tetrahedra::CellState>,
     /// Fronts less backs of each clip mesh that the ray meets.
     pub entered: [i32; MOST_CLIPS],
     /// Where clip geometry lets the volume begin: a surface behind all that is hidden, or the begin of the ray.

@@ -29,7 +29,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 82] = [
+const KINDS: [(&str, Change); 86] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -107,6 +107,21 @@ const KINDS: [(&str, Change); 82] = [
     ("shells, the outermost one in light, with a box through it", |s| {
         (s.shells.mode, s.shells.shell_levels) = (Some(ShellMode::Surface), vec![90.0, 150.0]);
         s.meshes = vec![across(1.0)];
+    }),
+    ("cells of a ring", |s| s.volume.builtin = Some("tets-torus:1".to_owned())),
+    ("cells of a ball, without colours and ends, in an orthographic view", |s| {
+        (s.volume.builtin, s.camera.height) = (Some("tets-ball:1".to_owned()), Some(1.1));
+        s.sampling.termination = 1.0;
+        preset(s, "ramp");
+    }),
+    ("the greatest value of cells", |s| {
+        (s.volume.builtin, s.projection.kind) = (Some("tets-torus:1".to_owned()), MIP.name());
+    }),
+    ("cells under a transfer function of many points", |s| {
+        s.volume.builtin = Some("tets-ball:1".to_owned());
+        let point =
+            |i: u32| [f64::from(i) / 24.0, 0.04 * f64::from(i), 0.5, 0.2, if i.is_multiple_of(5) { 0.0 } else { 0.3 }];
+        s.transfer.points = Some((0..=24).map(point).collect());
     }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),

@@ -1,6 +1,9 @@
 //! Damaged files: whatever a file holds, it is read or refused, and what is read can be planned. What refuses it names it and
 //! repeats little of it. Seeded, so that a failure comes again.
 
+#[path = "../read/cell_samples.rs"]
+mod cell_samples;
+mod cells;
 mod damage;
 #[path = "../read/mesh_samples.rs"]
 mod mesh_samples;

@@ -7,7 +7,7 @@ use crate::mesh_samples::{cube, tetrahedron};
 use crate::{INPUTS, is_fit};
 
 /// Bytes changed, put over each other or cut off, where no digits stand.
-fn flipped(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+pub fn flipped(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     const ODD: [u8; 6] = [0, 1, 0x7f, 0x80, 0xfe, 0xff];
     let mut bytes = bytes.to_vec();
     for _ in 0..=numbers.below(4) {

@@ -53,6 +53,14 @@ fn shells(mode: ShellMode, meshed: bool) -> Plan {
     plan(&scene(&settings), None).unwrap()
 }
 
+/// Through the cells of a ring.
+fn through_cells(method: MethodName, form: Option<Form>) -> Plan {
+    let mut settings = settings(method);
+    settings.volume.builtin = Some("tets-torus:1".to_owned());
+    settings.camera.eye = [0.9, 0.8, 1.0];
+    plan(&scene(&settings), form).unwrap()
+}
+
 /// With a clip plane that the eye is cut off by, and a mesh.
 fn cut(method: MethodName, form: Option<Form>) -> Plan {
     let mut settings = settings(method);
@@ -185,6 +193,14 @@ pub fn cases() -> Vec<Case> {
         ("shells_outermost_surface", ShellMode::Surface, true),
     ] {
         cases.push(Case { name, plan: shells(mode, meshed) });
+    }
+    for (name, method, form) in [
+        ("tet-propagation_ztest_fragdepth", method::TET_PROPAGATION.name(), form(Ztest, Fragdepth)),
+        ("tet-propagation_bounds_copy", method::TET_PROPAGATION.name(), form(Bounds, Mark::Copy)),
+        ("tet-single-pass", method::TET_SINGLE_PASS.name(), None),
+        ("tet-single-pass+compute", method::TET_SINGLE_PASS_COMPUTE.name(), None),
+    ] {
+        cases.push(Case { name, plan: through_cells(method, form) });
     }
     cases.push(Case { name: "single-pass-omni_clip_volume", plan: clipped_by_volume() });
     cases.push(Case { name: "nn-omni_ztest_copy_mip", plan: projected(&MIP, form(Ztest, Mark::Copy)) });

@@ -1,6 +1,7 @@
 //! Readers of volumes and meshes: what is written comes back, what is wrong is refused by name, and what is doubtful is told.
 
 mod cases;
+mod cell_samples;
 mod components;
 mod ends;
 mod files;
@@ -18,5 +19,6 @@ mod raw;
 mod refused;
 mod scene_choice;
 mod spacing;
+mod tetrahedra;
 mod text;
 mod types;

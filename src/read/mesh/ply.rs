@@ -4,14 +4,13 @@
 //! else their rows hold; the other elements are stepped over.
 
 mod header;
-mod values;
 
 use std::path::Path;
 
 use self::header::{Element, Property};
-use self::values::{Fault, Values};
 use super::parts::Parts;
 use crate::error::{Error, Result};
+use crate::read::values::{Fault, Values};
 use crate::scene::mesh::Mesh;
 
 const AXES: [&str; 3] = ["x", "y", "z"];

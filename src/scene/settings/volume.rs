@@ -100,6 +100,11 @@ section! {
     #[arg(long, value_name = "0..N|luminance|magnitude", allow_negative_numbers = true)]
     component?: Component;
 
+    /// Values shown of a mesh of cells that has several, by the name of their array
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(long, value_name = "NAME")]
+    array?: String, default "the first at points with one value each, else the first";
+
     /// Volume shown of a file that holds several, or slice of one that is a stack, counted from 0
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]

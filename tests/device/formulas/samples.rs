@@ -109,6 +109,8 @@ fn twin(scene: &Scene) -> Twin<'_> {
         scene,
         rays: scene.camera.rays([ROW, ROWS]).unwrap(),
         slices: None,
+        cells: None,
+        medium: None,
         passes: 1,
         distance: None,
         blocks: None,

@@ -21,6 +21,7 @@ pub mod scenes;
 mod shells;
 mod single_pass;
 mod slices;
+mod tetrahedra;
 mod textures;
 mod truth;
 
@@ -42,6 +43,7 @@ pub fn tests() -> Vec<Test> {
         single_pass::tests(),
         slices::tests(),
         shells::tests(),
+        tetrahedra::tests(),
         effects::tests(),
         refraction::tests(),
     ]

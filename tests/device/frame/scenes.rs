@@ -167,7 +167,7 @@ pub fn loops_in_turn(method: &Method, turn: usize) -> bool {
 pub fn in_turn(method: &Method, turn: usize) -> bool {
     let ahead = if (turn / STACKS.len()).is_multiple_of(2) { Ahead::Blocks } else { Ahead::Distances(Distance::Omni) };
     match method.traversal {
-        Traversal::Passes | Traversal::Shells => true,
+        Traversal::Passes | Traversal::Shells | Traversal::Cells(_) => true,
         Traversal::FragmentLoop | Traversal::ComputeLoop => loops_in_turn(method, turn),
         Traversal::Slices(stack) => {
             stack == STACKS[turn % STACKS.len()] && [Ahead::Nothing, ahead].contains(&method.ahead)

@@ -12,7 +12,7 @@ use crate::measure::abreast::measure_abreast;
 use crate::measure::runner::{Checked, Effort, Runner};
 use crate::read;
 use crate::scene::settings::{Settings, VolumeSettings};
-use crate::scene::{Camera, Scene, Volume};
+use crate::scene::{Camera, Content, Scene};
 
 /// How much is timed.
 #[derive(Clone, Debug)]
@@ -87,7 +87,7 @@ struct Timing<'a> {
 /// Volumes that were read, and what was asked for of each: choices that are made otherwise hardly ever ask for another one, and that of a
 /// mesh takes its time.
 #[derive(Default)]
-struct KeptVolumes(Vec<(VolumeSettings, Volume)>);
+struct KeptVolumes(Vec<(VolumeSettings, Content)>);
 
 impl KeptVolumes {
     /// The scene of settings, whose volume is read where it is not there.
@@ -97,8 +97,7 @@ impl KeptVolumes {
         let place = match self.0.iter().position(|(of, _)| *of == asked) {
             Some(place) => place,
             None => {
-                let volume = read::scene::volume(&settings.volume)?;
-                self.0.push((asked, volume));
+                self.0.push((asked, read::scene::content(&settings.volume)?));
                 self.0.len() - 1
             }
         };

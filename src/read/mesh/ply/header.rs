@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::values::{Encoding, NumberType};
 use crate::error::{Error, Result};
+use crate::read::values::{Encoding, NumberType};
 
 pub struct Header {
     pub encoding: Encoding,

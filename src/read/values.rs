@@ -1,4 +1,4 @@
-//! The numbers of a PLY file, as text or as bytes, one after the other.
+//! The numbers of a file, as text or as bytes, one after the other.
 
 /// How the numbers of a file are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,12 +28,14 @@ pub enum NumberType {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
 
 impl NumberType {
-    /// By either of its names.
+    /// By either of the names of PLY.
     pub fn of(name: &str) -> Option<Self> {
         match name {
             "char" | "int8" => Some(Self::I8),
@@ -53,7 +55,7 @@ impl NumberType {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
             Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
+            Self::I64 | Self::U64 | Self::F64 => 8,
         }
     }
 
@@ -68,6 +70,9 @@ impl NumberType {
             Self::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
             Self::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
             Self::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            // Rounded beyond 2^53.
+            Self::I64 => i64::from_le_bytes(bytes) as f64,
+            Self::U64 => u64::from_le_bytes(bytes) as f64,
             Self::F64 => f64::from_le_bytes(bytes),
         }
     }
@@ -82,6 +87,7 @@ pub enum Fault {
 }
 
 /// The numbers that are still to be read.
+#[derive(Clone)]
 pub struct Values<'a> {
     pub encoding: Encoding,
     rest: &'a [u8],
@@ -119,6 +125,23 @@ impl<'a> Values<'a> {
             lowest_first[..bytes.len()].reverse();
         }
         Ok(number.value(lowest_first))
+    }
+
+    /// The text up to the end of the line, without it; none where nothing follows.
+    pub fn line(&mut self) -> Option<String> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let end = self.rest.iter().position(|b| *b == b'\n').unwrap_or(self.rest.len());
+        let (line, rest) = self.rest.split_at(end);
+        self.rest = rest.get(1..).unwrap_or_default();
+        self.line += 1;
+        Some(String::from_utf8_lossy(line).trim().to_owned())
+    }
+
+    /// Lines so far, and the one at hand.
+    pub fn line_number(&self) -> usize {
+        self.line
     }
 
     /// Ends a row, which in text is a line.

@@ -1,0 +1,133 @@
+// Vertices of a mesh as a ray sees them, and on which side of an edge it passes, exactly for places across it that are rounded once.
+// Twin: src/scene/tetrahedra/seen.rs, where it is told why no ray is lost. Needs frame.glsl, double_float.glsl and ray.glsl.
+//
+// Departure: depths count from the middle of the mesh, so that places have the digits of f32 where vertices are.
+
+// Vertices in volume space, and their x.
+layout(set = 0, binding = 60, std430) readonly buffer TetPoints {
+    vec4 list[];
+} tet_points;
+
+layout(set = 0, binding = 61, std140) uniform TetView {
+    // Depth of the middle of the mesh, a double-float.
+    vec2 middle;
+    // Reference lengths in a unit of volume space.
+    float lengths;
+} tet_view;
+
+struct Line {
+    // Where it is at the depth of the middle of the mesh: high parts, low parts.
+    vec3 origin;
+    vec3 rest;
+    // What a unit along the axis that is longest along it is along the two others.
+    vec2 shear;
+    // The direction along that axis.
+    float along;
+    // That axis, and whether the direction points down it.
+    int axis;
+    bool down;
+    // The length of the direction.
+    float stretch;
+};
+
+struct Seen {
+    uint number;
+    vec2 place;
+    // From the middle of the mesh.
+    float depth;
+    float value;
+};
+
+// The two axes across a line and the one along, so that they turn as those of space do.
+vec3 in_line(Line line, vec3 v) {
+    vec3 turned = line.axis == 0 ? v.yzx : line.axis == 1 ? v.zxy : v;
+    return line.down ? turned.yxz : turned;
+}
+
+// The ray through a place of the picture.
+Line line_through(vec2 pixel) {
+    Line line;
+    vec2 square = vec2(0.0);
+    vec2 directions[3];
+    vec3 direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        directions[axis] = ray_direction(pixel, axis);
+        direction[axis] = directions[axis].x;
+        vec2 origin = df_add(ray_origin(pixel, axis), df_multiply(tet_view.middle, directions[axis]));
+        line.origin[axis] = origin.x;
+        line.rest[axis] = origin.y;
+        square = df_add(square, df_multiply(directions[axis], directions[axis]));
+    }
+    vec3 size = abs(direction);
+    line.axis = size.y > size.x ? (size.z > size.y ? 2 : 1) : size.z > size.x ? 2 : 0;
+    vec2 along = line.axis == 0 ? directions[0] : line.axis == 1 ? directions[1] : directions[2];
+    line.down = along.x < 0.0;
+    vec2 first = line.axis == 0 ? directions[1] : line.axis == 1 ? directions[2] : directions[0];
+    vec2 second = line.axis == 0 ? directions[2] : line.axis == 1 ? directions[0] : directions[1];
+    vec2 shear = vec2(df_divide(first, along).x, df_divide(second, along).x);
+    line.shear = line.down ? shear.yx : shear;
+    line.along = along.x;
+    line.stretch = df_sqrt(square).x;
+    return line;
+}
+
+Seen seen(Line line, uint number) {
+    vec4 vertex = tet_points.list[number];
+    precise vec3 arm = (vertex.xyz - line.origin) - line.rest;
+    precise vec3 turned = in_line(line, arm);
+    precise vec2 along = line.shear * turned.z;
+    precise vec2 place = turned.xy - along;
+    return Seen(number, place, turned.z / line.along, vertex.w);
+}
+
+// Twice the area of the triangle from the line to two vertices, above 0 where they go round to the left.
+float area(Seen a, Seen b) {
+    vec2 p = two_product(a.place.x, b.place.y);
+    vec2 q = two_product(a.place.y, b.place.x);
+    precise float area = (p.x - q.x) + (p.y - q.y);
+    return area;
+}
+
+bool rises(vec2 a, vec2 b) {
+    vec2 p = two_product(a.x, b.y);
+    vec2 q = two_product(a.y, b.x);
+    if (p.x != q.x) {
+        return p.x > q.x;
+    }
+    if (p.y != q.y) {
+        return p.y > q.y;
+    }
+    // What the area grows by as `a` moves along each axis, then as `b` does; as both do it falls.
+    float moved = b.y != 0.0 ? b.y : b.x != 0.0 ? -b.x : a.y != 0.0 ? -a.y : a.x;
+    return moved > 0.0;
+}
+
+// Whether two vertices go round the line to the left.
+bool left(Seen a, Seen b) {
+    // By the numbers, so that both directions of an edge give opposite answers.
+    bool swapped = a.number > b.number;
+    return rises(swapped ? b.place : a.place, swapped ? a.place : b.place) != swapped;
+}
+
+// Depth and x where the line passes through a triangle that it passes through.
+vec2 face_point(Seen a, Seen b, Seen c) {
+    vec3 weights = vec3(area(b, c), area(c, a), area(a, b));
+    weights /= weights.x + weights.y + weights.z;
+    if (!(all(greaterThanEqual(weights, vec3(0.0))) && all(lessThanEqual(weights, vec3(1.0))))) {
+        // Corners in a row across the line: it passes the edge whose middle it is nearest to, or through a vertex.
+        vec3 apart = vec3(dot(a.place, b.place), dot(b.place, c.place), dot(c.place, a.place));
+        vec3 far = vec3(length(a.place), length(b.place), length(c.place));
+        if (apart.x <= apart.y && apart.x <= apart.z) {
+            weights = vec3(far.y, far.x, 0.0);
+        } else if (apart.y <= apart.z) {
+            weights = vec3(0.0, far.z, far.y);
+        } else {
+            weights = vec3(far.z, 0.0, far.x);
+        }
+        float sum = weights.x + weights.y + weights.z;
+        weights = sum > 0.0 ? weights / sum : vec3(1.0 / 3.0);
+    }
+    vec3 depths = vec3(a.depth, b.depth, c.depth);
+    vec3 values = vec3(a.value, b.value, c.value);
+    return vec2(dot(weights, depths), dot(weights, values));
+}

@@ -1,0 +1,46 @@
+// A propagation step [Weiler03 "Multi-Pass Algorithm"]: exit point of the current cell, scalar there, ray integral within the cell, blending,
+// and the adjacent cell. Traversal data are read from one set and written to the other.
+//
+// Departures: 1. Which face a ray leaves by follows from the sides on which it passes edges, exactly, and not from the least parameter among
+// the planes of faces whose backs are seen: rounding loses no ray at edges and vertices. 2. The scalar is that of the three corners of the
+// face, by the areas that are known then, and not g . x and an offset, whose g has no digits in flat cells. 3. Colours are blended by the
+// blend unit, so that they need no copy in passes that find no cell.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@takes [CULL_DISCARD], [VALUES], [FEW_PIECES], [ORTHOGRAPHIC]
+
+#include "shared/tet_cell.glsl"
+#include "shared/cull.glsl"
+#ifndef CULL_DISCARD
+layout(early_fragment_tests) in;
+#endif
+
+layout(set = 0, binding = 67) uniform sampler2D tet_cell;
+layout(set = 0, binding = 68) uniform sampler2D tet_point;
+
+layout(location = 0) out vec2 next_cell;
+layout(location = 1) out vec2 next_point;
+layout(location = 2) out vec4 gathered;
+
+void main() {
+    bool runs = may_run();
+    next_cell = vec2(0.0);
+    next_point = vec2(0.0);
+    gathered = no_sample();
+    if (runs) {
+        ivec2 texel = ivec2(gl_FragCoord.xy);
+        vec2 here = texelFetch(tet_cell, texel, 0).xy;
+        if (here.x > 0.0) {
+            Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
+            vec2 from = texelFetch(tet_point, texel, 0).xy;
+            vec2 to;
+            Way next = leave(line, Way((uint(here.x) - 1u) * 4u + uint(here.y), from), to);
+            gathered = cell_light(line, from, to);
+            next_point = to;
+            if (next.side != NOTHING) {
+                next_cell = vec2(float(next.side >> 2) + 1.0, float(next.side & 3u));
+            }
+        }
+    }
+    DROP_UNLESS(runs);
+}

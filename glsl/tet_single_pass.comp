@@ -1,0 +1,38 @@
+// Ray casting of a mesh of tetrahedra as a compute shader: a ray an invocation, in tiles of 8 x 8 pixels.
+//
+// GOES_ON: the ray goes on with what RES holds. RGBA32F, RGBA16F, RGBA8: the format of RES.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+//@takes RGBA32F | RGBA16F | RGBA8
+//@takes [GOES_ON], [VALUES], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC]
+
+#define COMPUTE
+#include "shared/tet_loop.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#if defined(RGBA32F)
+layout(set = 0, binding = 7, rgba32f) uniform image2D accumulated;
+#elif defined(RGBA16F)
+layout(set = 0, binding = 7, rgba16f) uniform image2D accumulated;
+#else
+layout(set = 0, binding = 7, rgba8) uniform image2D accumulated;
+#endif
+
+void main() {
+    ivec2 pixel = this_pixel();
+    if (any(greaterThanEqual(pixel, imageSize(accumulated)))) {
+        return;
+    }
+    vec4 entered = texelFetch(tet_entry, pixel, 0);
+#ifdef GOES_ON
+    vec4 held = imageLoad(accumulated, pixel);
+#ifdef VALUES
+    held = held.a == 0.0 && entered.y > 0.0 ? begin_in_mesh() : held;
+#endif
+#else
+    vec4 held = entered.y > 0.0 ? begin_in_mesh() : vec4(0.0);
+#endif
+    Line line = line_through(vec2(pixel) + 0.5 + vec2(frame.first_column, frame.first_row));
+    imageStore(accumulated, pixel, through_cells(line, entry_of(entered), held));
+}

@@ -1,0 +1,101 @@
+//! Meshes of cells: what of the features their frames have, and what they refuse.
+
+use super::classification::CLASSIFICATION;
+use super::colors::COLORS;
+use super::transfer_function::{FEW_PIECES, TRANSFER_FUNCTION};
+use crate::error::{Error, Result};
+use crate::part::Constant;
+use crate::part::resource::Resource;
+use crate::part::rows::{Context, Feature};
+use crate::projection::{self, AVERAGE};
+use crate::scene::Scene;
+use crate::scene::settings::{Alpha, Classification};
+
+/// The features that ways through cells are classified by.
+const OF_CELLS: [&Feature; 4] = [&CLASSIFICATION, &COLORS, &TRANSFER_FUNCTION, &FEW_PIECES];
+
+/// Specialization constants of what classifies ways through cells.
+pub fn constants(context: &Context) -> Vec<Constant> {
+    let there = OF_CELLS.into_iter().filter(|_| context.has(&CLASSIFICATION));
+    there.flat_map(|feature| (feature.constants)(context)).collect()
+}
+
+/// What it reads.
+pub fn reads(context: &Context) -> Vec<Resource> {
+    OF_CELLS.into_iter().filter(|feature| context.has(feature)).flat_map(|feature| (feature.reads)(context)).collect()
+}
+
+/// The defines of shaders that classify ways through cells.
+pub fn defines(context: &Context) -> Vec<&'static str> {
+    OF_CELLS.into_iter().filter_map(|feature| feature.define(context)).collect()
+}
+
+/// Takes volumes of voxels.
+///
+/// # Errors
+/// When the scene shows a mesh of cells.
+pub fn takes_voxels(scene: &Scene) -> Result<()> {
+    match scene.tetrahedra {
+        None => Ok(()),
+        Some(_) => Err(Error::usage(
+            format!("--method {}", scene.settings.method.name),
+            format!("takes voxels, and {} is a mesh of cells", scene.field.volume.name),
+            "use tet-single-pass, tet-single-pass+compute or tet-propagation, or --method auto",
+        )),
+    }
+}
+
+/// Takes a mesh of cells with nothing in it or around it: colours, extremes and sums of its values.
+///
+/// # Errors
+/// When the scene shows voxels, or asks for what there is of voxels alone.
+pub fn takes_cells(scene: &Scene) -> Result<()> {
+    let settings = &scene.settings;
+    if scene.tetrahedra.is_none() {
+        return Err(Error::usage(
+            format!("--method {}", settings.method.name),
+            format!("goes through the cells of a mesh, and {} has voxels", scene.field.volume.name),
+            "use another method, or give a mesh (builtin:tets-ball, a file of VTK)",
+        ));
+    }
+    let refused = |input: &str, why: &str, remedy: &str| Err(Error::usage(input, why, remedy));
+    match () {
+        () if !scene.polygons.is_empty() => refused(
+            "[[mesh]], [[clip]] with a mesh",
+            "are surfaces among voxels, and ways through cells are not cut at them",
+            "leave them out",
+        ),
+        () if !scene.clip_planes().is_empty() || scene.clip_volume.is_some() => {
+            refused("[[clip]] (--clip-plane)", "cuts volumes of voxels, and this is a mesh of cells", "leave it out")
+        }
+        () if scene.surface.is_some() || settings.shells.mode.is_some() => refused(
+            "[surface], [shells] (--iso, --shells)",
+            "show surfaces between voxels, and this is a mesh of cells",
+            "leave them out",
+        ),
+        () if !scene.lights.is_empty() => {
+            refused("[[light]]", "shines on gradients of voxels, and this is a mesh of cells", "leave it out")
+        }
+        () if scene.environment.is_some() || scene.effect.is_some() || scene.backdrop.is_some() => refused(
+            "[environment], [effects]",
+            "are of samples and surfaces between voxels, and this is a mesh of cells",
+            "leave them out",
+        ),
+        () if projection::of(settings).name == AVERAGE.name => refused(
+            "projection.kind (--projection average)",
+            "divides by the length of the ray, which of one through a mesh is known at its end alone",
+            "use xray, the sum",
+        ),
+        () if settings.sampling.alpha == Alpha::Paper => refused(
+            "sampling.alpha (--alpha paper)",
+            "takes opacities of steps as they stand, and ways through cells have lengths of their own",
+            "use exponential",
+        ),
+        () if settings.sampling.classification != Classification::Post => refused(
+            "sampling.classification (--classification pre-integrated)",
+            "is of steps, and ways through cells are integrated already",
+            "use post",
+        ),
+        () => Ok(()),
+    }
+}

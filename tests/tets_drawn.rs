@@ -1,0 +1,110 @@
+//! Pictures of meshes of tetrahedra in f64: twins of all methods against the exact integral, closed forms, and the picture of the voxels
+//! that a mesh was cut of.
+
+use depthleap::frame::{Structures, cpu};
+use depthleap::method::{TET_PROPAGATION, TET_SINGLE_PASS};
+use depthleap::part::rows::Method;
+use depthleap::plan::plan;
+use depthleap::projection::{MINIP, MIP, XRAY};
+use depthleap::read;
+use depthleap::scene::Scene;
+use depthleap::scene::settings::Settings;
+use depthleap::truth::exact::ExactIntegrator;
+
+fn scene(name: &str, change: impl FnOnce(&mut Settings)) -> Scene {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some(name.to_owned());
+    settings.image.size = [31, 27];
+    settings.transfer.preset = Some("linear".to_owned());
+    settings.method.name = TET_SINGLE_PASS.name();
+    settings.sampling.termination = 1.0;
+    change(&mut settings);
+    read::scene(&settings).unwrap()
+}
+
+fn twin(scene: &Scene, method: &Method) -> Vec<[f64; 4]> {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method.name();
+    let plan = plan(&scene, method.papers).unwrap();
+    cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS).pixels
+}
+
+fn exact(scene: &Scene) -> Vec<[f64; 4]> {
+    let rays = scene.camera.rays(scene.settings.image.size).unwrap();
+    ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size)
+}
+
+fn apart(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let of = |(a, b): (&[f64; 4], &[f64; 4])| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
+    a.iter().zip(b).map(of).fold(0.0, f64::max)
+}
+
+type Change = fn(&mut Settings);
+
+const VIEWS: [(&str, Change); 4] = [
+    ("from outside", |_| {}),
+    ("from within", |s| (s.camera.eye, s.camera.target) = ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4])),
+    ("along faces", |s| (s.camera.eye, s.camera.target, s.camera.height) = ([0.0, 0.0, 2.0], [0.0; 3], Some(1.0))),
+    ("in a ring", |s| (s.camera.eye, s.camera.target) = ([0.34, 0.02, 0.01], [0.0, 0.35, 0.0])),
+];
+
+#[test]
+fn twins_are_the_exact_integral() {
+    for name in ["tets-cube:3", "tets-ball:3", "tets-torus:3"] {
+        for (view, change) in VIEWS {
+            for projection in [None, Some(MIP.name()), Some(MINIP.name()), Some(XRAY.name())] {
+                let scene = scene(name, |s| {
+                    change(s);
+                    if let Some(projection) = projection {
+                        s.projection.kind = projection;
+                    }
+                });
+                let truth = exact(&scene);
+                assert!(truth.iter().any(|pixel| pixel[0] > 0.0), "{name}, {view}: nothing shows");
+                for method in [&TET_SINGLE_PASS, &TET_PROPAGATION] {
+                    let off = apart(&twin(&scene, method), &truth);
+                    // Levels of extremes are rounded to f32.
+                    assert!(off < 2e-6, "{name}, {view}, {projection:?}, {}: {off:e}", method.name);
+                }
+            }
+        }
+    }
+}
+
+/// A linear value along a ray through a cube: its sum is the mean of both ends times the way.
+#[test]
+fn the_sum_of_a_linear_field_is_that_of_its_ends() {
+    let scene = scene("tets-cube:5", |s| s.projection.kind = XRAY.name());
+    let rays = scene.camera.rays(scene.settings.image.size).unwrap();
+    let truth = exact(&scene);
+    let unit = 1.0 / (scene.transfer.reference * scene.field.finest());
+    for (i, pixel) in truth.iter().enumerate() {
+        let ray = rays.of(i as u32 % 31, i as u32 / 31);
+        let interval = depthleap::math::ray::box_interval(&ray, 0.5 * scene.field.extent(), rays.near);
+        let rule = interval.map_or(0.0, |(enter, leave)| {
+            let value = |depth: f64| ray.at(depth).element_sum() / 3.0 + 0.5;
+            0.5 * (value(enter) + value(leave)) * (leave - enter) * ray.direction.length() * unit
+        });
+        assert!((pixel[0] - rule).abs() < 1e-5 * rule.max(1.0), "pixel {i}: {} where {rule} is its sum", pixel[0]);
+    }
+}
+
+/// Constant opacity over a way: 1 - (1 - alpha)^way.
+#[test]
+fn a_mesh_of_one_opacity_is_as_opaque_as_its_way_is_long() {
+    let scene = scene("tets-ball:6", |s| {
+        (s.transfer.preset, s.transfer.points) = (None, Some(vec![[0.5, 0.2, 0.5, 0.9, 0.1]]));
+    });
+    let rays = scene.camera.rays(scene.settings.image.size).unwrap();
+    let mesh = scene.tetrahedra.clone().unwrap();
+    for (i, pixel) in twin(&scene, &TET_SINGLE_PASS).iter().enumerate() {
+        let ray = rays.of(i as u32 % 31, i as u32 / 31);
+        let way: f64 = mesh.ways(&ray, rays.near).iter().map(|way| way.to.depth - way.from.depth).sum();
+        let lengths = way * ray.direction.length() / scene.field.finest();
+        let alpha = 1.0 - 0.9f64.powf(lengths);
+        for (found, color) in pixel.iter().zip([0.2, 0.5, 0.9, 1.0]) {
+            assert!((found - color * alpha).abs() < 1e-9, "pixel {i}: {pixel:?} where {alpha} is its opacity");
+        }
+    }
+}
