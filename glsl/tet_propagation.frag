@@ -7,7 +7,7 @@
 // blend unit, so that they need no copy in passes that find no cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [CULL_DISCARD], [VALUES], [FEW_PIECES], [ORTHOGRAPHIC]
+//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [ORTHOGRAPHIC]
 
 #include "shared/tet_cell.glsl"
 #include "shared/cull.glsl"

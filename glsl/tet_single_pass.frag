@@ -4,7 +4,7 @@
 // GOES_ON: the ray goes on with what RES holds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [GOES_ON], [VALUES], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC]
 
 #include "shared/tet_loop.glsl"
 

@@ -18,7 +18,7 @@ layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
 layout(set = 0, binding = 66) uniform sampler2D tet_entry;
 
 #if defined(VALUES) && defined(GOES_ON)
-layout(input_attachment_index = 2, set = 0, binding = 7) uniform subpassInput accumulated;
+layout(input_attachment_index = 0, set = 0, binding = 7) uniform subpassInput accumulated;
 #endif
 
 layout(location = 0) out vec2 cell;

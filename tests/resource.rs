@@ -69,7 +69,12 @@ fn scenes() -> Vec<Scene> {
     let within = scene(|s| {
         (s.volume.builtin, s.camera.eye) = (Some("tets-ball:2".to_owned()), [0.1, 0.05, 0.02]);
     });
+    let by_table = scene(|s| {
+        s.volume.builtin = Some("tets-ball:2".to_owned());
+        (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 4);
+    });
     vec![
+        by_table,
         within,
         shells,
         cut_there,
@@ -117,7 +122,7 @@ fn plans() -> Vec<(Scene, Plan)> {
 fn sizes_are_those_of_what_the_host_makes() {
     let mut seen = HashSet::new();
     for (scene, plan) in plans() {
-        let table = scene.settings.sampling.preintegrates().then(|| PreintegratedTable::new(&scene));
+        let table = scene.has_step_table().then(|| PreintegratedTable::new(&scene));
         for build in &plan.builds {
             let facts =
                 Facts { table: table.as_ref(), lookup: build.asset.lookup.or(plan.distance), ..plan.facts(&scene) };

@@ -35,7 +35,8 @@ const WITHOUT_KEY: [(&str, &str); 7] = [
 ];
 
 /// Keys that may be absent and have no range of their own, and why.
-const WITHOUT_RANGE: [(&str, &str); 21] = [
+const WITHOUT_RANGE: [(&str, &str); 22] = [
+    ("volume.array", "a name"),
     ("volume.path", "a name"),
     ("volume.builtin", "a name"),
     ("volume.mesh", "a name"),

@@ -8,7 +8,7 @@ use depthleap::plan::plan;
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::Settings;
+use depthleap::scene::settings::{Classification, Settings};
 use depthleap::truth::exact::ExactIntegrator;
 
 fn scene(name: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -106,5 +106,24 @@ fn a_mesh_of_one_opacity_is_as_opaque_as_its_way_is_long() {
         for (found, color) in pixel.iter().zip([0.2, 0.5, 0.9, 1.0]) {
             assert!((found - color * alpha).abs() < 1e-9, "pixel {i}: {pixel:?} where {alpha} is its opacity");
         }
+    }
+}
+
+/// The table's error falls with the square of the distance between its nodes, where the transfer function has no bends between them.
+#[test]
+fn the_error_of_a_table_falls_with_its_size() {
+    let off = |nodes: u32| {
+        let scene = scene("tets-cube:4", |s| {
+            (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, nodes);
+            (s.transfer.preset, s.transfer.points) =
+                (None, Some(vec![[0.0, 0.1, 0.5, 0.9, 0.05], [1.0, 0.9, 0.4, 0.2, 0.4]]));
+        });
+        apart(&twin(&scene, &TET_SINGLE_PASS), &exact(&scene))
+    };
+    let errors = [5, 9, 17, 33].map(off);
+    println!("errors of tables of 5, 9, 17 and 33 nodes a side: {errors:?}");
+    assert!(errors[0] > 1e-4, "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!(pair[1] < 0.35 * pair[0], "{errors:?}");
     }
 }

@@ -13,6 +13,8 @@ layout(set = 0, binding = 61, std140) uniform TetView {
     vec2 middle;
     // Reference lengths in a unit of volume space.
     float lengths;
+    // Of the table of ways: the first value, nodes in a unit of x, and nodes in a reference length.
+    vec4 table;
 } tet_view;
 
 struct Line {

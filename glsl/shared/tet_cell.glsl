@@ -8,7 +8,9 @@
 #include "shared/cells.glsl"
 #include "shared/opacity.glsl"
 #include "shared/logarithm.glsl"
-#ifndef VALUES
+#if defined(TABLE)
+#include "shared/cell_table.glsl"
+#elif !defined(VALUES)
 #include "shared/transfer.glsl"
 #include "shared/cell_integral.glsl"
 #endif

@@ -8,25 +8,32 @@ use crate::part::Constant;
 use crate::part::resource::Resource;
 use crate::part::rows::{Context, Feature};
 use crate::projection::{self, AVERAGE};
+use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Alpha, Classification};
+use crate::scene::settings::Alpha;
 
 /// The features that ways through cells are classified by.
 const OF_CELLS: [&Feature; 4] = [&CLASSIFICATION, &COLORS, &TRANSFER_FUNCTION, &FEW_PIECES];
 
 /// Specialization constants of what classifies ways through cells.
 pub fn constants(context: &Context) -> Vec<Constant> {
-    let there = OF_CELLS.into_iter().filter(|_| context.has(&CLASSIFICATION));
+    let there = OF_CELLS.into_iter().filter(|_| context.has(&CLASSIFICATION) && !context.scene.has_cell_table());
     there.flat_map(|feature| (feature.constants)(context)).collect()
 }
 
 /// What it reads.
 pub fn reads(context: &Context) -> Vec<Resource> {
+    if context.scene.has_cell_table() {
+        return vec![resource::TET_TABLE];
+    }
     OF_CELLS.into_iter().filter(|feature| context.has(feature)).flat_map(|feature| (feature.reads)(context)).collect()
 }
 
 /// The defines of shaders that classify ways through cells.
 pub fn defines(context: &Context) -> Vec<&'static str> {
+    if context.scene.has_cell_table() {
+        return vec!["TABLE"];
+    }
     OF_CELLS.into_iter().filter_map(|feature| feature.define(context)).collect()
 }
 
@@ -91,10 +98,10 @@ pub fn takes_cells(scene: &Scene) -> Result<()> {
             "takes opacities of steps as they stand, and ways through cells have lengths of their own",
             "use exponential",
         ),
-        () if settings.sampling.classification != Classification::Post => refused(
+        () if scene.has_cell_table() && projection::of(settings).shows_values() => refused(
             "sampling.classification (--classification pre-integrated)",
-            "is of steps, and ways through cells are integrated already",
-            "use post",
+            "makes colours of values, and this projection shows values",
+            "use --projection composite, or --classification post",
         ),
         () => Ok(()),
     }

@@ -102,7 +102,8 @@ pub const SUB_PIXEL_BITS: u32 = 8;
 /// Runs the plan as a device whose rasteriser has a raster of 2^-`sub_pixel_bits` pixels would.
 pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: u32) -> CpuFrame {
     let height = plan.view.size[1];
-    let (table, gradients) = (structures.table(scene), structures.gradients(scene));
+    let (table, gradients, cell_table) =
+        (structures.table(scene), structures.gradients(scene), structures.cells(scene));
     let projection = projection::of(&scene.settings);
     let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
     let surface_values: Vec<[f64; 2]> =
@@ -115,6 +116,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         slices: plan.view.slices.as_deref(),
         cells: plan.view.cells.as_deref(),
         medium: Some(&medium),
+        cell_table: cell_table.as_deref(),
         passes: plan.passes,
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),

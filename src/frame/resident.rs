@@ -106,14 +106,16 @@ impl Resident {
 
     /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
     pub fn table(&mut self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
-        let asked = scene.settings.sampling.preintegrates();
+        let asked = scene.has_step_table();
         asked.then(|| self.table.get_or_insert_with(|| Arc::new(PreintegratedTable::new(scene))).clone())
     }
 
     /// Forgets the table of pre-integrated classification: the next plan's scene may have other steps.
     pub fn forget_table(&mut self) {
         self.table = None;
-        self.kept.retain(|kept| ![resource::PREINTEGRATED, resource::AXIS].contains(&kept.asset.resource));
+        self.kept.retain(|kept| {
+            ![resource::PREINTEGRATED, resource::AXIS, resource::TET_TABLE].contains(&kept.asset.resource)
+        });
     }
 
     /// Forgets what depends on the transfer function: the next plan's scene may have another one.

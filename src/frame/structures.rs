@@ -14,6 +14,7 @@ use crate::scene::gradients::GradientCoding;
 use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
+use crate::truth::cell_table::CellTable;
 use crate::truth::preintegrated::PreintegratedTable;
 
 /// A structure and what it cost.
@@ -34,6 +35,8 @@ pub struct Structures {
     pub gradients: Option<Arc<GradientTexels>>,
     /// Of pre-integrated classification, for one transfer function and one step.
     pub table: Option<Arc<PreintegratedTable>>,
+    /// Of ways through cells, for one transfer function.
+    pub cells: Option<Arc<CellTable>>,
 }
 
 impl Structures {
@@ -42,6 +45,7 @@ impl Structures {
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) {
         self.table = self.table(scene);
         self.gradients = self.gradients(scene);
+        self.cells = self.cells(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::of(scene);
             let build = || structure::build(&scene.field, &texels.values, &texels.shown(scene), &lookup);
@@ -56,7 +60,12 @@ impl Structures {
     /// The table of pre-integrated classification, where the scene asks for one: the one that is here, or a new one.
     pub fn table(&self, scene: &Scene) -> Option<Arc<PreintegratedTable>> {
         let new = || self.table.clone().unwrap_or_else(|| Arc::new(PreintegratedTable::new(scene)));
-        scene.settings.sampling.preintegrates().then(new)
+        scene.has_step_table().then(new)
+    }
+
+    /// The table of ways through cells, where the scene asks for one: the one that is here, or a new one.
+    pub fn cells(&self, scene: &Scene) -> Option<Arc<CellTable>> {
+        self.cells.clone().or_else(|| CellTable::of(scene).map(Arc::new)).filter(|_| scene.has_cell_table())
     }
 
     /// The gradients, where the scene reads them from a texture: those that are here, or new ones.

@@ -15,7 +15,7 @@ use crate::part::resource::Resource;
 use crate::part::rows::Context;
 use crate::part::{Constant, DepthTest, Draw, Group, PixelDispatch, Step, Work};
 use crate::resource;
-use crate::scene::settings::Cull;
+use crate::scene::settings::{Cull, Mark};
 use crate::twin;
 
 /// What every shader reads that knows the mesh.
@@ -134,6 +134,11 @@ pub fn update(context: &Context, pass: u32, form: Form) -> Step {
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(resource::ACCUMULATED)));
     draw.define(EARLY_ENDS.define(context));
     draw.specialize([constants::depth_bits(context.scene), constants::projection(context)]);
+    if form.mark != Mark::Copy {
+        // The reason stands in the shader.
+        accesses.push(Usage::Color.of(resource::TET_POINT.at(1)));
+        draw.define(["BESIDE"]);
+    }
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("tet_update #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

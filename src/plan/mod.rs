@@ -246,7 +246,10 @@ fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
     }
     let sampling = &scene.settings.sampling;
     if let Some(mesh) = scene.tetrahedra.as_ref().filter(|_| method.goes_through_cells()) {
-        let needed = mesh.most_cells(&view.rays);
+        let ahead = mesh.most_cells(&view.rays);
+        // Rays that begin within the mesh come to where they do through cells behind the eye.
+        let within = view.cells.as_ref().is_some_and(|cells| cells.begins.is_some());
+        let needed = if within { (2 * ahead).min(mesh.cells.len() as u32) } else { ahead };
         return if sampling.passes > 0 && needed > 0 { sampling.passes } else { needed };
     }
     if let Some(slices) = &view.slices {

@@ -39,13 +39,14 @@ pub use structure::{
 };
 pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 pub use tetrahedra::{
-    TET_ACROSS, TET_BEGIN, TET_BOUNDARY, TET_CELL, TET_CELLS, TET_CORNERS, TET_ENTRY, TET_POINT, TET_POINTS, TET_VIEW,
+    TET_ACROSS, TET_BEGIN, TET_BOUNDARY, TET_CELL, TET_CELLS, TET_CORNERS, TET_ENTRY, TET_POINT, TET_POINTS, TET_TABLE,
+    TET_VIEW,
 };
 
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 78] = [
+pub const RESOURCES: [Resource; 79] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -81,6 +82,7 @@ pub const RESOURCES: [Resource; 78] = [
     TET_BOUNDARY,
     TET_VIEW,
     TET_BEGIN,
+    TET_TABLE,
     TET_ENTRY,
     TET_CELL,
     TET_POINT,

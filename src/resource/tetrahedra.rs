@@ -8,6 +8,7 @@ use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, Resourc
 use crate::scene::Tetrahedra;
 use crate::scene::tetrahedra::FACES;
 use crate::shared;
+use crate::truth::cell_table::CellTable;
 use crate::vulkan::ImageShape;
 
 /// The mesh of the scene, of which something is asked.
@@ -127,6 +128,25 @@ static TET_BEGIN_INFO: ResourceInfo = ResourceInfo::of_frame(
         None => Default::default(),
     },
 );
+
+/// Ways through cells.
+pub const TET_TABLE: Resource = Resource::new(&TET_TABLE_INFO);
+static TET_TABLE_INFO: ResourceInfo = ResourceInfo {
+    name: "tet_table",
+    holds: "premultiplied colour and opacity of a way, by the values at its ends and its length",
+    kind: ResourceKind::Texture(Texture {
+        format: |_| vk::Format::R32G32B32A32_SFLOAT,
+        extent: |facts| [facts.scene.settings.sampling.table as usize; 3],
+        shape: ImageShape::Volume,
+        filtered: false,
+        shared: |_| true,
+    }),
+    life: Life::Transfer,
+    origin: Origin::Host(|facts| {
+        CellTable::of(facts.scene)
+            .map_or_else(Default::default, |table| bytemuck::cast_slice(&table.texels).to_vec().into())
+    }),
+};
 
 /// Two numbers that a ray holds from a cell to the next.
 const fn target(name: &'static str, holds: &'static str) -> ResourceInfo {

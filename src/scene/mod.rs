@@ -104,6 +104,16 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether ways through cells are looked up in a table.
+    pub fn has_cell_table(&self) -> bool {
+        self.tetrahedra.is_some() && self.settings.sampling.preintegrates()
+    }
+
+    /// Whether steps of samples are.
+    pub fn has_step_table(&self) -> bool {
+        self.tetrahedra.is_none() && self.settings.sampling.preintegrates()
+    }
+
     /// The same scene, seen by a camera that is given in volume space.
     pub fn seen_by(mut self, camera: Camera) -> Self {
         let settings = &mut self.settings.camera;

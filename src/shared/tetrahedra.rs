@@ -5,6 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::double_float;
 use crate::scene::Scene;
 use crate::scene::tetrahedra::CellsView;
+use crate::truth::cell_table::TableAxes;
 
 /// `TetView` of `glsl/shared/seen.glsl`, where its members are explained.
 #[repr(C)]
@@ -13,11 +14,19 @@ pub struct TetView {
     pub middle: [f32; 2],
     pub lengths: f32,
     pub padding: f32,
+    pub table: [f32; 4],
 }
 
 impl TetView {
     pub fn new(scene: &Scene, view: &CellsView) -> Self {
         let lengths = 1.0 / (scene.transfer.reference * scene.field.finest());
-        Self { middle: double_float(view.middle), lengths: lengths as f32, padding: 0.0 }
+        let axes = TableAxes::of(scene).filter(|_| scene.has_cell_table());
+        let table = axes.map_or([0.0; 4], |axes| [axes.values[0], axes.per_value(), axes.per_length(), 0.0]);
+        Self {
+            middle: double_float(view.middle),
+            lengths: lengths as f32,
+            padding: 0.0,
+            table: table.map(|number| number as f32),
+        }
     }
 }

@@ -42,7 +42,7 @@ pub fn check(scene: &Scene) -> Result<()> {
         Err(Error::usage("sampling.classification (--classification) pre-integrated", problem, remedy))
     };
     match () {
-        () if !sampling.preintegrates() => Ok(()),
+        () if !scene.has_step_table() => Ok(()),
         () if projection::of(&scene.settings).shows_values() => refuse(
             format!(
                 "makes colours of values, and the projection {} shows values",

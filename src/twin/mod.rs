@@ -43,6 +43,7 @@ use crate::scene::{Light, Scene};
 use crate::structure::blocks::Blocks;
 use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
+use crate::truth::cell_table::CellTable;
 use crate::truth::exact::Absorber;
 use crate::truth::preintegrated::PreintegratedTable;
 
@@ -63,6 +64,8 @@ pub struct Twin<'a> {
     pub cells: Option<&'a CellsView>,
     /// The transfer function as what light passes through on its way through cells.
     pub medium: Option<&'a Absorber<'a>>,
+    /// Ways through cells, where they are looked up.
+    pub cell_table: Option<&'a CellTable>,
     /// N, main passes of the frame.
     pub passes: u32,
     pub distance: Option<&'a DistanceField>,

@@ -10,6 +10,13 @@ use crate::scene::tetrahedra::{CellWay, Entry, FacePoint, NOTHING};
 /// another number of cells, whose light together is the same.
 const BESIDE_EDGE: f64 = 2e-6;
 
+/// Where a way is more opaque than this, its end may be next to an opacity of 1, at which the light falls to nothing within what single
+/// precision takes from a value.
+const NEARLY_OPAQUE: f64 = 0.5;
+
+/// What single precision takes from a value, in x.
+const VALUE_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+
 /// A ray on its way through cells: the side by which it enters one, and where.
 pub type CellState = (u32, FacePoint);
 
@@ -114,9 +121,20 @@ impl Twin<'_> {
         let ray = self.rays.of(pixel.column, pixel.row);
         let lengths = (to.depth - from.depth).max(0.0) * ray.direction.length()
             / (self.scene.transfer.reference * self.scene.field.finest());
-        let light = match &self.projection.values {
-            None => self.medium.map_or([0.0; 4], |medium| medium.ramp(from.value, to.value, lengths)),
-            Some(values) => {
+        let light = match (&self.projection.values, self.cell_table) {
+            (None, Some(table)) => table.between(from.value, to.value, lengths),
+            (None, None) => {
+                let ramp = |by: f64| {
+                    self.medium.map_or([0.0; 4], |medium| medium.ramp(from.value - by, to.value - by, lengths))
+                };
+                let light = ramp(0.0);
+                if light[3] > NEARLY_OPAQUE {
+                    let off = (light[3] - ramp(VALUE_ROUNDING)[3]).abs();
+                    pixel.rounding += (1.0 - pixel.accumulated[3]) * off;
+                }
+                light
+            }
+            (Some(values), _) => {
                 let weight = SampleWeight { steps: lengths, all: 1.0, lengths: 1.0 };
                 let part = |x: f64| self.projection.grey((values.part)(x, &self.levels, &weight));
                 match self.projection.blend {

@@ -114,6 +114,15 @@ fn made() -> Vec<(String, Plan)> {
             every_form(method, &scene, &format!("{accumulate:?}"));
         }
     }
+    for method in METHODS.into_iter().filter(|method| method.goes_through_cells()) {
+        for accumulate in [Accumulate::Rgba16f, Accumulate::Rgba8] {
+            let mut settings = Settings::default();
+            settings.volume.builtin = Some("tets-ball:1".to_owned());
+            (settings.image.size, settings.method.name) = ([8, 8], method.name());
+            settings.image.accumulate = accumulate;
+            every_form(method, &read::scene(&settings).unwrap(), &format!("{accumulate:?}"));
+        }
+    }
     for method in METHODS.into_iter().filter(|method| method.stack().is_some_and(|stack| stack != Stack::Shells)) {
         let mut scene = scene(method.name(), likes()[0]);
         scene.settings.method.slice_cut = SliceCut::Device;

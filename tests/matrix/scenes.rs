@@ -29,7 +29,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 86] = [
+const KINDS: [(&str, Change); 87] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -116,6 +116,10 @@ const KINDS: [(&str, Change); 86] = [
     }),
     ("the greatest value of cells", |s| {
         (s.volume.builtin, s.projection.kind) = (Some("tets-torus:1".to_owned()), MIP.name());
+    }),
+    ("cells by a table of ways", |s| {
+        s.volume.builtin = Some("tets-torus:1".to_owned());
+        (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 9);
     }),
     ("cells under a transfer function of many points", |s| {
         s.volume.builtin = Some("tets-ball:1".to_owned());

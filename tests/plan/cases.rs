@@ -14,6 +14,9 @@ pub fn settings(method: MethodName) -> Settings {
     let mut settings = Settings::default();
     settings.volume.builtin = Some("shells:16".to_owned());
     settings.image.size = [32, 32];
+    if method::find(method).is_some_and(|method| method.goes_through_cells()) {
+        settings.volume.builtin = Some("tets-ball:2".to_owned());
+    }
     settings.method.name = method;
     settings
 }

@@ -59,6 +59,10 @@ section! {
     #[arg(long, value_name = "OPACITY", allow_negative_numbers = true)]
     termination: f64 = 0.95, within Limits::from_to(0.0, 1.0, "an opacity {} (1 ends no ray early)");
 
+    /// Nodes along each side of the table of ways through the cells of a mesh, of --classification pre-integrated
+    #[arg(long = "table-size", value_name = "N", allow_negative_numbers = true)]
+    table: u32 = 64, within Limits::from_to(2.0, 256.0, "nodes {}");
+
     /// Artificial cost of a sample: so many further fetches, one after another, which change no picture
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     extra_fetches: u32 = 0,
@@ -79,7 +83,8 @@ pub enum Classification {
     /// The value of a sample.
     #[default]
     Post,
-    /// All values from one sample to the next, by a table made for the step; the value goes evenly between them.
+    /// All values from one sample to the next, by a table made for the step; the value goes evenly between them. Of a mesh of cells all
+    /// from one face to the next, by a table of their lengths as well, where others integrate exactly.
     PreIntegrated,
 }
 

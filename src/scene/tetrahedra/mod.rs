@@ -47,6 +47,8 @@ pub struct Tetrahedra {
     pub extent: DVec3,
     /// The side of a cube that six cells of the mean volume fill: a voxel, where the mesh is a grid of voxels cut into six.
     pub unit: f64,
+    /// The longest edge of any cell, volume space: no way through one is longer.
+    pub longest_edge: f64,
     /// Around the faces of the boundary.
     hierarchy: Hierarchy,
 }
@@ -73,7 +75,16 @@ impl Tetrahedra {
         };
         let hierarchy = Hierarchy::new(&boundary.iter().map(around).collect::<Vec<_>>());
         let beside = boundary::beside(&cells, &boundary);
-        Ok(Self { values: values.to_vec(), points, cells, across, boundary, beside, extent, unit, hierarchy })
+        let longest = |cell: &[u32; 4]| {
+            let corners = cell.map(at);
+            (1..4)
+                .flat_map(|i| (0..i).map(move |j| (i, j)))
+                .map(|(i, j)| corners[i].distance(corners[j]))
+                .fold(0.0, f64::max)
+        };
+        let longest_edge = cells.par_iter().map(longest).reduce(|| 0.0, f64::max);
+        let values = values.to_vec();
+        Ok(Self { points, values, cells, across, boundary, beside, extent, unit, longest_edge, hierarchy })
     }
 
     /// A vertex.

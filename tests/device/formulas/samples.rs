@@ -111,6 +111,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         slices: None,
         cells: None,
         medium: None,
+        cell_table: None,
         passes: 1,
         distance: None,
         blocks: None,

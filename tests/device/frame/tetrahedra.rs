@@ -6,7 +6,7 @@ use depthleap::method::{TET_PROPAGATION, TET_SINGLE_PASS, TET_SINGLE_PASS_COMPUT
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::Settings;
+use depthleap::scene::settings::{Classification, Settings};
 use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
@@ -31,7 +31,7 @@ const VIEWS: [(&str, Change); 4] = [
 ];
 
 /// Meshes, and what is made of them.
-const MESHES: [(&str, Change); 5] = [
+const MESHES: [(&str, Change); 6] = [
     ("tets-cube:8", |_| {}),
     ("tets-ball:5", |s| {
         s.transfer.preset = None;
@@ -46,6 +46,9 @@ const MESHES: [(&str, Change); 5] = [
     ("tets-torus:4", |s| s.transfer.preset = Some("surface".to_owned())),
     ("tets-torus:3", |s| s.projection.kind = MIP.name()),
     ("tets-ball:4", |s| s.projection.kind = XRAY.name()),
+    ("tets-cube:5", |s| {
+        (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 17);
+    }),
 ];
 
 /// Meshes of the literature, and the array that is shown.
@@ -117,7 +120,7 @@ fn all_methods(device: &Arc<Device>, scene: &Scene) {
         let largest = held(&shot, &twin, 0.0).unwrap_or_else(|what| panic!("{}: {what}", method.name));
         found.push(format!("{} {largest:.1e}", method.name));
     }
-    if !ends {
+    if !ends && !scene.has_cell_table() {
         let rays = scene.camera.rays(scene.settings.image.size).unwrap();
         let truth = ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size);
         let off = |(a, b): (&[f64; 4], &[f64; 4])| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
