@@ -16,10 +16,7 @@
 #include "shared/seen.glsl"
 #include "shared/cells.glsl"
 
-// Of each face of the boundary its side, and the faces beside it, over the edges from each of its corners to the next.
-layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
-    uvec4 list[];
-} tet_boundary;
+#include "shared/boundary.glsl"
 
 #ifdef BEGINS
 // One more than the number of the face by which the ray comes to where it begins; 0 where that is not in the mesh.
@@ -56,21 +53,17 @@ void main() {
     bool shown = false;
     vec2 at = vec2(0.0);
     for (int i = 0; i < MOST_FACES && !found && face != NOTHING; ++i) {
-        uvec4 beside = tet_boundary.list[face];
-        uvec4 corners = from_side(beside.x);
-        Seen a = seen(line, corners.x);
-        Seen b = seen(line, corners.y);
-        Seen c = seen(line, corners.z);
-        bvec3 lefts = bvec3(left(a, b), left(b, c), left(c, a));
-        if (!any(lefts)) {
+        Entrance entrance = entrance_by(line, face);
+        if (!any(entrance.lefts)) {
             found = true;
             shown = true;
-            at = face_point(a, b, c);
-        } else if (area(a, b) + area(b, c) + area(c, a) >= 0.0) {
+            at = entrance.way.at;
+        } else if (entrance.way.areas.x + entrance.way.areas.y + entrance.way.areas.z >= 0.0) {
             // Its back is seen: the ray passes beside the mesh.
             found = true;
         } else {
-            face = lefts.x ? beside.y : lefts.y ? beside.z : beside.w;
+            uvec4 beside = tet_boundary.list[2u * face + 1u];
+            face = entrance.lefts.x ? beside.x : entrance.lefts.y ? beside.y : beside.z;
         }
     }
     float near = nearness(at.x);

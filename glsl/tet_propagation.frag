@@ -22,6 +22,28 @@ layout(location = 0) out vec2 next_cell;
 layout(location = 1) out vec2 next_point;
 layout(location = 2) out vec4 gathered;
 
+// A ray that enters a cell by a side, as traversal data have it.
+Way way_into(Line line, uint side, vec2 at) {
+    uvec4 corners = tet_cells.list[side >> 2];
+    uint place = side & 3u;
+    uvec3 face = place == 0u ? corners.yzw : place == 1u ? corners.xzw : place == 2u ? corners.xyw : corners.xyz;
+    Way way;
+    way.side = side;
+    way.a = seen(line, face.x);
+    way.b = seen(line, face.y);
+    way.c = seen(line, face.z);
+    Turn first = turn(way.a, way.b);
+    if (first.left) {
+        Seen other = way.b;
+        way.b = way.c;
+        way.c = other;
+        first = turn(way.a, way.b);
+    }
+    way.areas = vec3(turn(way.b, way.c).area, turn(way.c, way.a).area, first.area);
+    way.at = at;
+    return way;
+}
+
 void main() {
     bool runs = may_run();
     next_cell = vec2(0.0);
@@ -32,11 +54,10 @@ void main() {
         vec2 here = texelFetch(tet_cell, texel, 0).xy;
         if (here.x > 0.0) {
             Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
-            vec2 from = texelFetch(tet_point, texel, 0).xy;
-            vec2 to;
-            Way next = leave(line, Way((uint(here.x) - 1u) * 4u + uint(here.y), from), to);
-            gathered = cell_light(line, from, to);
-            next_point = to;
+            Way way = way_into(line, (uint(here.x) - 1u) * 4u + uint(here.y), texelFetch(tet_point, texel, 0).xy);
+            Way next = leave(line, way);
+            gathered = cell_light(line, way.at, next.at);
+            next_point = next.at;
             if (next.side != NOTHING) {
                 next_cell = vec2(float(next.side >> 2) + 1.0, float(next.side & 3u));
             }

@@ -34,5 +34,5 @@ void main() {
     vec4 held = entered.y > 0.0 ? begin_in_mesh() : vec4(0.0);
 #endif
     Line line = line_through(vec2(pixel) + 0.5 + vec2(frame.first_column, frame.first_row));
-    imageStore(accumulated, pixel, through_cells(line, entry_of(entered), held));
+    imageStore(accumulated, pixel, through_cells(line, entered, held));
 }

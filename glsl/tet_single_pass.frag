@@ -25,5 +25,5 @@ void main() {
     vec4 held = entered.y > 0.0 ? begin_in_mesh() : vec4(0.0);
 #endif
     Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
-    gathered = through_cells(line, entry_of(entered), held);
+    gathered = through_cells(line, entered, held);
 }

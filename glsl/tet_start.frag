@@ -11,6 +11,7 @@
 #include "shared/projection.glsl"
 #endif
 
+// As in boundary.glsl.
 layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
     uvec4 list[];
 } tet_boundary;
@@ -29,7 +30,7 @@ layout(location = 2) out vec4 gathered;
 
 void main() {
     vec4 entered = texelFetch(tet_entry, ivec2(gl_FragCoord.xy), 0);
-    uint side = entered.y > 0.0 ? tet_boundary.list[uint(entered.y) - 1u].x : 0u;
+    uint side = entered.y > 0.0 ? tet_boundary.list[2u * (uint(entered.y) - 1u)].x : 0u;
     cell = entered.y > 0.0 ? vec2(float(side >> 2) + 1.0, float(side & 3u)) : vec2(0.0);
     point = entered.zw;
 #ifdef VALUES

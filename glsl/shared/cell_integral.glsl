@@ -1,99 +1,133 @@
 // What the transfer function makes of a way on which x goes evenly from one value to another: the emission-absorption integral.
 // Twin: `Absorber::ramp` in src/truth/exact.rs. Needs transfer.glsl, opacity.glsl and logarithm.glsl.
 //
-// Over a piece of the transfer function opacities are linear, so that the optical depth has a closed form. What a change of colour brings
-// has none; it is the integral of a smooth function, by a rule of Gauss that is exact to f32 over the panels it is taken on.
+// A way is cut where the transfer function bends, and where the transparency would change by more than a fifth of its mean to each side
+// or the optical depth be above 1: most ways through cells are cut nowhere. Over a part opacities are linear, so that its optical depth has
+// a closed form, of which a few terms of a series are exact to f32; what a change of colour brings is the integral of a smooth function, by
+// the rule of Gauss with three points.
 
-// Beyond it nothing is seen.
+// Red, green and blue are the same everywhere.
+layout(constant_id = 40) const bool ONE_COLOR = false;
+
+// An optical depth that lets nothing pass.
 const float OPAQUE_DEPTH = 1.0e30;
 
-// The mean of -ln(1 - opacity) where the opacity goes evenly from `a` to `b`; `clear` is 1 - opacity at both.
+// What is left to pass that nobody sees.
+const float BLACK = 1.0e-8;
+
+// Parts of a way at the most: transparencies down to the least number of f32 are a hundredth each of the one before at worst.
+const int MOST_PARTS = 1024;
+
+// The mean of -ln(1 - opacity) over a part where the opacity goes evenly from `a` to `b`; `clear` is 1 - opacity at both ends.
 float mean_extinction(float a, float b, vec2 clear) {
     float sum = clear.x + clear.y;
     if (sum <= 0.0) {
         return OPAQUE_DEPTH;
     }
-    float ratio = (a - b) / sum;
-    if (abs(ratio) > 0.25) {
-        float product_x = clear.x > 0.0 ? clear.x * logarithm(clear.x) : 0.0;
-        float product_y = clear.y > 0.0 ? clear.y * logarithm(clear.y) : 0.0;
-        return 1.0 - (product_y - product_x) / (clear.y - clear.x);
-    }
     float mean = 0.5 * (a + b);
+    float ratio = (a - b) / sum;
     float square = ratio * ratio;
     float series = square * (1.0 / 6.0 + square * (1.0 / 20.0 + square * (1.0 / 42.0 + square / 72.0)));
-    return series - (mean <= 0.5 ? log_1_plus(-mean) : logarithm(0.5 * sum));
+    // ln(1 + x) by the series of the inverse hyperbolic tangent, or of the number itself.
+    float logarithm_of_mean = mean <= 0.5 ? log_1_plus(-mean) : logarithm(max(0.5 * sum, 1.0e-37));
+    return series - logarithm_of_mean;
 }
 
 float opacity_of(float optical_depth) {
     return optical_depth <= 0.5 ? -exp_minus_1(-optical_depth) : 1.0 - exp(-optical_depth);
 }
 
-// The integral of exp(-tau(t)) - exp(-tau(1)) over t from 0 to 1, where the opacity goes evenly from `a` to `b` and tau(1) is `whole`:
-// what the change of a colour adds to the light, in parts of the change.
-float rise_of(float a, float b, vec2 clear, float lengths, float whole) {
-    // Points and weights of the rule of four points, on a panel from 0 to 1.
-    const vec4 PLACES = vec4(0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558);
-    const vec4 WEIGHTS = vec4(0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);
-    // Where it comes near to opaque the depth rises without bounds.
-    bool steep = min(clear.x, clear.y) < 0.05;
-    float panels = clamp(ceil(whole), steep ? 8.0 : 1.0, 16.0);
-    float at_end = exp(-whole);
-    float sum = 0.0;
-    for (float panel = 0.0; panel < panels; panel += 1.0) {
-        for (int i = 0; i < 4; ++i) {
-            float t = (panel + PLACES[i]) / panels;
-            float here = mix(a, b, t);
-            float clear_here = mix(clear.x, clear.y, t);
-            float depth = t * lengths * mean_extinction(a, here, vec2(clear.x, clear_here));
-            sum += WEIGHTS[i] * (exp(-depth) - at_end);
+// Premultiplied colour and opacity of a part of so many reference lengths.
+vec4 over_part(vec4 first, vec4 last, vec2 clear, float lengths) {
+    float depth = lengths * mean_extinction(first.a, last.a, clear);
+    vec4 light = vec4(first.rgb, 1.0) * opacity_of(depth);
+    if (!ONE_COLOR) {
+        // The integral of exp(-tau(t)) - exp(-tau(1)): what the change of colour adds, in parts of the change.
+        const vec3 PLACES = vec3(0.1127016654, 0.5, 0.8872983346);
+        const vec3 WEIGHTS = vec3(0.2777777778, 0.4444444444, 0.2777777778);
+        float rise = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            float here = mix(first.a, last.a, PLACES[i]);
+            float clear_here = mix(clear.x, clear.y, PLACES[i]);
+            float to_here = PLACES[i] * lengths * mean_extinction(first.a, here, vec2(clear.x, clear_here));
+            rise += WEIGHTS[i] * opacity_of(depth - to_here) * exp(-to_here);
         }
+        light.rgb += (last.rgb - first.rgb) * rise;
     }
-    return sum / panels;
+    return light;
 }
 
-// Premultiplied colour and opacity of a way of so many reference lengths over one piece, from one x to another within it.
-vec4 over_piece(Piece piece, float from, float to, float lengths) {
-    vec2 weight = clamp((vec2(from, to) - piece.begin) * piece.inverse_length, 0.0, 1.0);
-    vec4 first = piece.rgba + weight.x * piece.change;
-    vec4 last = piece.rgba + weight.y * piece.change;
-    vec2 clear = max(piece.clear + weight * piece.clear_change, 0.0);
-    if (first.a <= 0.0 && last.a <= 0.0) {
-        return vec4(0.0);
+// The piece in which a way goes on from a value: at a jump the later piece begins there, or ends.
+int piece_ahead(float value, bool falls) {
+    int found = 0;
+#ifdef FEW_PIECES
+    for (int at = 1; at < PIECES; ++at) {
+        float begin = piece_at(at).begin;
+        found = (falls ? value > begin : value >= begin) ? at : found;
     }
-    float depth = lengths * mean_extinction(first.a, last.a, clear);
-    float opacity = opacity_of(depth);
-    vec3 color = first.rgb * opacity;
-    if (first.rgb != last.rgb) {
-        color += (last.rgb - first.rgb) * rise_of(first.a, last.a, clear, lengths, depth);
+#else
+    for (int width = SEARCH; width > 0; width >>= 1) {
+        if (found + width < PIECES) {
+            float begin = transfer.rows[(found + width) * ROWS].x;
+            found += (falls ? value > begin : value >= begin) ? width : 0;
+        }
     }
-    return vec4(color, opacity);
+#endif
+    return found;
+}
+
+// The part of a way of `left_over` reference lengths from `at` to `back` that is integrated as one: where it ends, how much of the way it
+// is, and the light.
+struct Part {
+    float to;
+    float share;
+    vec4 light;
+};
+
+Part part_from(float at, float back, float left_over) {
+    bool falls = back < at;
+    int number = piece_ahead(at, falls);
+    Piece piece = piece_at(number);
+    // Before the first bend the transfer function is what it is there.
+    bool before = falls ? at <= piece.begin : at < piece.begin;
+    float above = number + 1 < PIECES ? piece_at(number + 1).begin : back;
+    float end = falls ? (before ? back : max(piece.begin, back)) : min(before ? piece.begin : above, back);
+    float weight = clamp((at - piece.begin) * piece.inverse_length, 0.0, 1.0);
+    float clear = max(piece.clear + weight * piece.clear_change, 0.0);
+    vec4 first = piece.rgba + weight * piece.change;
+    // The change of transparency with x, and how far x may go.
+    float slope = before ? 0.0 : abs(piece.clear_change * piece.inverse_length);
+    float way = abs(back - at);
+    float step = min(abs(end - at), max(0.4 * clear, 1.0e-6) / max(slope, 1.0e-30));
+    float share = way > 0.0 ? min(step / way, 1.0) : 1.0;
+    bool to_end = step == abs(end - at);
+    if (!ONE_COLOR) {
+        float extinction = first.a <= 0.5 ? -log_1_plus(-first.a) : -logarithm(max(clear, 1.0e-37));
+        extinction += 1.3 * slope * step / max(clear, 1.0e-6);
+        float longest = 1.0 / max(extinction * left_over, 1.0e-30);
+        to_end = to_end && share <= longest;
+        share = min(share, longest);
+    }
+    Part part;
+    part.share = share;
+    part.to = share >= 1.0 ? back : to_end ? end : at + (falls ? -share : share) * way;
+    part.to = part.to == at ? end : part.to;
+    float weight_to = clamp((part.to - piece.begin) * piece.inverse_length, 0.0, 1.0);
+    vec2 clears = vec2(clear, max(piece.clear + weight_to * piece.clear_change, 0.0));
+    part.light = over_part(first, piece.rgba + weight_to * piece.change, clears, share * left_over);
+    return part;
 }
 
 // Premultiplied colour and opacity of a way of so many reference lengths on which x goes evenly from `front` to `back`.
 vec4 cell_integral(float front, float back, float lengths) {
-    if (!(lengths > 0.0)) {
-        return vec4(0.0);
-    }
-    if (front == back) {
-        return over_piece(piece_of(front), front, back, lengths);
-    }
-    float least = min(front, back);
-    float most = max(front, back);
-    bool falls = back < front;
-    float scale = lengths / (most - least);
     vec4 light = vec4(0.0);
-    // What lies before the first piece has its begin's colour.
-    for (int i = 0; i <= PIECES; ++i) {
-        int at = falls ? PIECES - i : i;
-        Piece piece = piece_at(max(at - 1, 0));
-        float low = at == 0 ? least : max(least, piece.begin);
-        float high = at == PIECES ? most : min(most, at == 0 ? piece.begin : piece_at(at).begin);
-        if (low < high) {
-            float from = falls ? high : low;
-            float to = falls ? low : high;
-            light = composite(light, over_piece(piece, from, to, (high - low) * scale));
-        }
+    float at = front;
+    float left_over = lengths;
+    for (int i = 0; i < MOST_PARTS && left_over > 0.0 && light.a < 1.0 - BLACK; ++i) {
+        Part part = part_from(at, back, left_over);
+        light = composite(light, part.light);
+        at = part.to;
+        left_over = part.share >= 1.0 ? 0.0 : left_over * (1.0 - part.share);
     }
     return light;
 }

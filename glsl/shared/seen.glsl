@@ -82,54 +82,23 @@ Seen seen(Line line, uint number) {
     return Seen(number, place, turned.z / line.along, vertex.w);
 }
 
-// Twice the area of the triangle from the line to two vertices, above 0 where they go round to the left.
-float area(Seen a, Seen b) {
-    vec2 p = two_product(a.place.x, b.place.y);
-    vec2 q = two_product(a.place.y, b.place.x);
-    precise float area = (p.x - q.x) + (p.y - q.y);
-    return area;
-}
+// Which way two vertices go round the line, and twice the area of the triangle from it to them, above 0 to the left.
+struct Turn {
+    float area;
+    bool left;
+};
 
-bool rises(vec2 a, vec2 b) {
+Turn turn(Seen from, Seen to) {
+    // By the numbers, so that both directions of an edge give opposite answers.
+    bool swapped = from.number > to.number;
+    vec2 a = swapped ? to.place : from.place;
+    vec2 b = swapped ? from.place : to.place;
     vec2 p = two_product(a.x, b.y);
     vec2 q = two_product(a.y, b.x);
-    if (p.x != q.x) {
-        return p.x > q.x;
-    }
-    if (p.y != q.y) {
-        return p.y > q.y;
-    }
+    precise float area = (p.x - q.x) + (p.y - q.y);
     // What the area grows by as `a` moves along each axis, then as `b` does; as both do it falls.
     float moved = b.y != 0.0 ? b.y : b.x != 0.0 ? -b.x : a.y != 0.0 ? -a.y : a.x;
-    return moved > 0.0;
-}
-
-// Whether two vertices go round the line to the left.
-bool left(Seen a, Seen b) {
-    // By the numbers, so that both directions of an edge give opposite answers.
-    bool swapped = a.number > b.number;
-    return rises(swapped ? b.place : a.place, swapped ? a.place : b.place) != swapped;
-}
-
-// Depth and x where the line passes through a triangle that it passes through.
-vec2 face_point(Seen a, Seen b, Seen c) {
-    vec3 weights = vec3(area(b, c), area(c, a), area(a, b));
-    weights /= weights.x + weights.y + weights.z;
-    if (!(all(greaterThanEqual(weights, vec3(0.0))) && all(lessThanEqual(weights, vec3(1.0))))) {
-        // Corners in a row across the line: it passes the edge whose middle it is nearest to, or through a vertex.
-        vec3 apart = vec3(dot(a.place, b.place), dot(b.place, c.place), dot(c.place, a.place));
-        vec3 far = vec3(length(a.place), length(b.place), length(c.place));
-        if (apart.x <= apart.y && apart.x <= apart.z) {
-            weights = vec3(far.y, far.x, 0.0);
-        } else if (apart.y <= apart.z) {
-            weights = vec3(0.0, far.z, far.y);
-        } else {
-            weights = vec3(far.z, 0.0, far.x);
-        }
-        float sum = weights.x + weights.y + weights.z;
-        weights = sum > 0.0 ? weights / sum : vec3(1.0 / 3.0);
-    }
-    vec3 depths = vec3(a.depth, b.depth, c.depth);
-    vec3 values = vec3(a.value, b.value, c.value);
-    return vec2(dot(weights, depths), dot(weights, values));
+    // Products are rounded in their order.
+    bool left = p.x != q.x ? p.x > q.x : p.y != q.y ? p.y > q.y : moved > 0.0;
+    return Turn(swapped ? -area : area, left != swapped);
 }

@@ -17,8 +17,14 @@ const OF_CELLS: [&Feature; 4] = [&CLASSIFICATION, &COLORS, &TRANSFER_FUNCTION, &
 
 /// Specialization constants of what classifies ways through cells.
 pub fn constants(context: &Context) -> Vec<Constant> {
-    let there = OF_CELLS.into_iter().filter(|_| context.has(&CLASSIFICATION) && !context.scene.has_cell_table());
-    there.flat_map(|feature| (feature.constants)(context)).collect()
+    if !context.has(&CLASSIFICATION) || context.scene.has_cell_table() {
+        return Vec::new();
+    }
+    let mut constants: Vec<Constant> = OF_CELLS.into_iter().flat_map(|feature| (feature.constants)(context)).collect();
+    let knots = context.scene.transfer.knots();
+    let one_color = context.plans() && knots.iter().all(|knot| knot.color == knots[0].color);
+    constants.push(("ONE_COLOR", u32::from(one_color)));
+    constants
 }
 
 /// What it reads.

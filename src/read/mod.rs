@@ -181,7 +181,10 @@ fn unknown(path: &Path, length: u64) -> Error {
         true => "give a mesh as volume.mesh in a scene file, for its distance field, or as path of a table [[mesh]]"
             .to_owned(),
         false => {
-            format!("give a file of {}, or dims and type for raw voxels; scene files end in .toml", known.join(", "))
+            format!(
+                "give a file of {}, VTK (.vtk, .vtu, .vts, .vtr) for a mesh of cells, or dims and type for raw voxels; scene files end in .toml",
+                known.join(", ")
+            )
         }
     };
     Error::input(path.display(), format!("is of no known volume format ({length} bytes)"), remedy)

@@ -6,7 +6,7 @@ use ash::vk;
 
 use crate::part::resource::{Facts, Life, Origin, Resource, ResourceInfo, ResourceKind, Texture};
 use crate::scene::Tetrahedra;
-use crate::scene::tetrahedra::FACES;
+use crate::scene::tetrahedra::{FACES, NOTHING};
 use crate::shared;
 use crate::truth::cell_table::CellTable;
 use crate::vulkan::ImageShape;
@@ -45,11 +45,16 @@ static TET_POINTS_INFO: ResourceInfo = of_mesh(
 pub const TET_CELLS: Resource = Resource::new(&TET_CELLS_INFO);
 static TET_CELLS_INFO: ResourceInfo = of_mesh(
     "tet_cells",
-    "numbers of the four vertices of each cell, right-handed",
+    "numbers of the four vertices of each cell, rising",
     ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.cells.len())) as u64),
-    |facts| match &facts.scene.tetrahedra {
-        Some(mesh) => bytemuck::cast_slice(&mesh.cells).into(),
-        None => Default::default(),
+    |facts| {
+        let rising = |cell: &[u32; 4]| {
+            let mut corners = *cell;
+            corners.sort_unstable();
+            corners
+        };
+        let rows = of(facts, |mesh| mesh.cells.iter().map(rising).collect::<Vec<_>>());
+        bytemuck::cast_slice(&rows).to_vec().into()
     },
 );
 
@@ -57,23 +62,43 @@ static TET_CELLS_INFO: ResourceInfo = of_mesh(
 pub const TET_ACROSS: Resource = Resource::new(&TET_ACROSS_INFO);
 static TET_ACROSS_INFO: ResourceInfo = of_mesh(
     "tet_across",
-    "the side across the face opposite to each vertex of a cell, as its cell times 4 and its number; all bits on the boundary",
+    "the side across the face opposite to each vertex of a cell, as its cell times 4 and the place of the vertex opposite to it there; all \
+     bits on the boundary",
     ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.across.len())) as u64),
-    |facts| match &facts.scene.tetrahedra {
-        Some(mesh) => bytemuck::cast_slice(&mesh.across).into(),
-        None => Default::default(),
+    |facts| {
+        let rows = of(facts, |mesh| (0..mesh.cells.len()).map(|cell| across(mesh, cell)).collect::<Vec<_>>());
+        bytemuck::cast_slice(&rows).to_vec().into()
     },
 );
+
+/// A side of a cell by the place of its corner among those of the cell by rising numbers.
+fn by_place(mesh: &Tetrahedra, side: u32) -> u32 {
+    let cell = mesh.cells[side as usize / 4];
+    let corner = cell[side as usize % 4];
+    side / 4 * 4 + cell.iter().filter(|other| **other < corner).count() as u32
+}
+
+/// The sides across those of a cell, by places.
+fn across(mesh: &Tetrahedra, cell: usize) -> [u32; 4] {
+    let mut sides = [NOTHING; 4];
+    for (corner, other) in mesh.across[cell].iter().enumerate().filter(|(_, other)| **other != NOTHING) {
+        sides[by_place(mesh, (4 * cell + corner) as u32) as usize % 4] = by_place(mesh, *other);
+    }
+    sides
+}
 
 /// Faces of the boundary.
 pub const TET_BOUNDARY: Resource = Resource::new(&TET_BOUNDARY_INFO);
 static TET_BOUNDARY_INFO: ResourceInfo = of_mesh(
     "tet_boundary",
-    "the side of each face of the boundary, and the numbers of the three faces beside it",
-    ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.boundary.len())) as u64),
+    "of each face of the boundary its side, its vertices and the numbers of the three faces beside it, rows of boundary.glsl",
+    ResourceKind::Storage(|facts, _| (size_of::<[[u32; 4]; 2]>() * of(facts, |mesh| mesh.boundary.len())) as u64),
     |facts| {
         let rows = of(facts, |mesh| {
-            let row = |(side, [a, b, c]): (&u32, &[u32; 3])| [*side, *a, *b, *c];
+            let row = |(side, [a, b, c]): (&u32, &[u32; 3])| {
+                let [u, v, w] = FACES[*side as usize % 4].map(|corner| mesh.cells[*side as usize / 4][corner]);
+                [[by_place(mesh, *side), u, v, w], [*a, *b, *c, 0]]
+            };
             mesh.boundary.iter().zip(&mesh.beside).map(row).collect::<Vec<_>>()
         });
         bytemuck::cast_slice(&rows).to_vec().into()
@@ -168,7 +193,7 @@ static TET_ENTRY_INFO: ResourceInfo = ResourceInfo {
 pub const TET_CELL: Resource = Resource::new(&TET_CELL_INFO);
 static TET_CELL_INFO: ResourceInfo = target(
     "tet_cell",
-    "one more than the number of the current cell (0: none), and the side by which the ray enters it",
+    "one more than the number of the current cell (0: none), and the place of the corner opposite to the side by which the ray enters",
 );
 
 /// Intersection points, in two sets [Weiler03 "Traversal Data"].

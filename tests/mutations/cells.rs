@@ -3,14 +3,15 @@
 use depthleap::read;
 use depthleap::scene::settings::Settings;
 
-use crate::cell_samples::{RECTILINEAR, STRUCTURED, TEXT, bytes};
+use crate::cell_samples::{FORMS, RECTILINEAR, STRUCTURED, TEXT, bytes, xml};
 use crate::damage::{damaged, each};
 use crate::meshes::flipped;
 use crate::{INPUTS, is_fit};
 
 #[test]
 fn meshes_of_cells() {
-    let files = [TEXT.as_bytes().to_vec(), bytes(), STRUCTURED.as_bytes().to_vec(), RECTILINEAR.as_bytes().to_vec()];
+    let legacy = [TEXT.as_bytes().to_vec(), bytes(), STRUCTURED.as_bytes().to_vec(), RECTILINEAR.as_bytes().to_vec()];
+    let files: Vec<Vec<u8>> = legacy.into_iter().chain(FORMS.map(xml)).collect();
     let read = each(
         12,
         INPUTS,

@@ -81,3 +81,90 @@ POINT_DATA 8
 SCALARS x float
 0 1 0 1 0 1 0 1
 ";
+
+/// How the numbers of an XML file are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Ascii,
+    Base64,
+    Zlib,
+    AppendedRaw,
+    AppendedBase64,
+}
+
+pub const FORMS: [Form; 5] = [Form::Ascii, Form::Base64, Form::Zlib, Form::AppendedRaw, Form::AppendedBase64];
+
+/// The two cells as an XML file, in little-endian bytes where it has any.
+pub fn xml(form: Form) -> Vec<u8> {
+    use base64::Engine;
+    let encode = |bytes: &[u8]| base64::engine::general_purpose::STANDARD.encode(bytes);
+    let mut appended: Vec<u8> = Vec::new();
+    let mut array = |kind: &str, name: &str, components: usize, numbers: &[f64]| -> String {
+        let bytes: Vec<u8> = numbers
+            .iter()
+            .flat_map(|n| match kind {
+                "Float32" => (*n as f32).to_le_bytes().to_vec(),
+                "Float64" => n.to_le_bytes().to_vec(),
+                "Int64" => (*n as i64).to_le_bytes().to_vec(),
+                _ => vec![*n as u8],
+            })
+            .collect();
+        let sized = [&(bytes.len() as u32).to_le_bytes()[..], &bytes].concat();
+        let (format, text) = match form {
+            Form::Ascii => {
+                ("format=\"ascii\"".to_owned(), numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" "))
+            }
+            Form::Base64 => ("format=\"binary\"".to_owned(), encode(&sized)),
+            Form::Zlib => {
+                use std::io::Write;
+                // Two parts, of which the last is shorter.
+                let parts: Vec<&[u8]> = bytes.chunks(bytes.len().div_ceil(2).max(1)).collect();
+                let packed: Vec<Vec<u8>> = parts
+                    .iter()
+                    .map(|part| {
+                        let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+                        encoder.write_all(part).unwrap();
+                        encoder.finish().unwrap()
+                    })
+                    .collect();
+                let (whole, last) = (parts[0].len(), parts[parts.len() - 1].len());
+                let last = if last == whole { 0 } else { last };
+                let sizes = [parts.len(), whole, last].into_iter().chain(packed.iter().map(Vec::len));
+                let sizes: Vec<u8> = sizes.flat_map(|size| (size as u32).to_le_bytes()).collect();
+                ("format=\"binary\"".to_owned(), encode(&sizes) + &encode(&packed.concat()))
+            }
+            Form::AppendedRaw | Form::AppendedBase64 => {
+                let offset = appended.len();
+                appended.extend(if form == Form::AppendedRaw { sized } else { encode(&sized).into_bytes() });
+                (format!("format=\"appended\" offset=\"{offset}\""), String::new())
+            }
+        };
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" {format}>{text}</DataArray>\n"
+        )
+    };
+    let points = [0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1., 1., 1., 1.];
+    let values = array("Float64", "heat", 1, &[1., 2., 3., 4., 5.])
+        + &array("Float32", "flow", 3, &[3., 4., 0., 0., 0., 0., 1., 0., 0., 0., 0., 2., 0., 1., 0.])
+        + &array("UInt8", "wet ness", 1, &[9., 8., 7., 6., 5.]);
+    let of_cells = array("Float32", "order", 1, &[10., 20., 30.]);
+    let points = array("Float32", "Points", 3, &points);
+    let cells = array("Int64", "connectivity", 1, &[0., 1., 2., 3., 1., 2., 3., 4., 0., 1.])
+        + &array("Int64", "offsets", 1, &[4., 8., 10.])
+        + &array("UInt8", "types", 1, &[10., 10., 3.]);
+    let packed = if form == Form::Zlib { " compressor=\"vtkZLibDataCompressor\"" } else { "" };
+    let mut file = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\"{packed}>\n\
+         <UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData>{values}</PointData><CellData>{of_cells}</CellData>\n\
+         <Points>{points}</Points><Cells>{cells}</Cells></Piece></UnstructuredGrid>\n"
+    )
+    .into_bytes();
+    if !appended.is_empty() {
+        let encoding = if form == Form::AppendedRaw { "raw" } else { "base64" };
+        file.extend(format!("<AppendedData encoding=\"{encoding}\">\n_").into_bytes());
+        file.extend(appended);
+        file.extend(b"\n</AppendedData>\n");
+    }
+    file.extend(b"</VTKFile>\n");
+    file
+}

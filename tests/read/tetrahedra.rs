@@ -5,7 +5,7 @@ use depthleap::read;
 use depthleap::scene::settings::{Component, Settings};
 use depthleap::scene::tetrahedra::Grid;
 
-use crate::cell_samples::{RECTILINEAR, STRUCTURED, TEXT, bytes};
+use crate::cell_samples::{FORMS, Form, RECTILINEAR, STRUCTURED, TEXT, bytes, xml};
 use crate::kit::file;
 
 fn read_with(bytes: &[u8], array: Option<&str>, component: Option<Component>) -> Result<Grid> {
@@ -157,4 +157,53 @@ fn values_that_are_none_are_replaced_left_out_or_refused() {
     assert_eq!(replaced.tetrahedra.unwrap().cells.len(), 2);
     assert_eq!(of(Hole).unwrap().tetrahedra.unwrap().cells.len(), 1);
     assert!(of(Error).unwrap_err().to_string().contains("1 voxels that are NaN"));
+}
+
+#[test]
+fn xml_in_every_form_is_the_same_mesh() {
+    let text = read_as(TEXT.as_bytes());
+    for form in FORMS {
+        let grid = read_as(&xml(form));
+        assert_eq!((&grid.points, &grid.cells, &grid.values), (&text.points, &text.cells, &text.values), "{form:?}");
+        assert_eq!(grid.notes, text.notes, "{form:?}");
+        let flow = read_with(&xml(form), Some("flow"), Some(Component::Magnitude)).unwrap();
+        assert_eq!(flow.values, [5.0, 0.0, 1.0, 2.0, 1.0], "{form:?}");
+    }
+}
+
+#[test]
+fn xml_that_is_cut_off_or_promises_too_much_is_refused() {
+    for form in FORMS {
+        let whole = xml(form);
+        for length in 0..whole.len() {
+            let (_folder, path) = file("a.vtk", &whole[..length]);
+            match read::tetrahedra(&path, None, None) {
+                // Behind what is appended nothing has to follow.
+                Ok(Some(grid)) => assert_eq!(grid.cells.len(), 2, "{form:?}, {length}"),
+                Ok(None) => assert!(length < 40, "{form:?}, {length} bytes are not recognised"),
+                Err(error) => assert!(error.to_string().contains("a.vtk"), "{error}"),
+            }
+        }
+    }
+    let text = String::from_utf8(xml(Form::Ascii)).unwrap();
+    for (from, to, what) in [
+        (
+            "NumberOfPoints=\"5\"",
+            "NumberOfPoints=\"1000000000\"",
+            "numbers in the array `Points` for 1000000000 times 3",
+        ),
+        ("NumberOfCells=\"3\"", "NumberOfCells=\"18446744073709551615\"", "for 18446744073709551615 times 1"),
+        ("type=\"Float64\"", "type=\"Float16\"", "of the type `Float16`"),
+        ("4 8 10", "4 8 11", "has offsets of cells that do not rise to 10"),
+        ("4 8 10", "8 4 10", "has offsets of cells that do not rise to 10"),
+        ("1 2 3 4 0 1", "1 2 3 5 0 1", "has the cell 1 with the point 4294967295, and there are 5 points"),
+        ("Name=\"types\"", "Name=\"kinds\"", "has Cells without types"),
+        ("type=\"UnstructuredGrid\"", "type=\"PolyData\"", "holds no `PolyData`"),
+        ("byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order", "is packed by `vtkLZ4DataCompressor`"),
+        ("</Points>", "", "is not XML"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let message = refusal(text.replacen(from, to, 1).as_bytes());
+        assert!(message.contains(what), "{from} -> {to}: {message}");
+    }
 }

@@ -5,6 +5,8 @@
 mod arrays;
 mod cells;
 mod legacy;
+mod vtu;
+mod vtu_values;
 
 use std::path::Path;
 
@@ -20,7 +22,10 @@ struct CellFormat {
     read: fn(&Path, &[u8]) -> Result<CellData>,
 }
 
-static FORMATS: [CellFormat; 1] = [CellFormat { recognises: legacy::recognises, read: legacy::read }];
+static FORMATS: [CellFormat; 2] = [
+    CellFormat { recognises: legacy::recognises, read: legacy::read },
+    CellFormat { recognises: vtu::recognises, read: vtu::read },
+];
 
 /// Bytes by which a format is recognised.
 const START: usize = 256;
