@@ -14,7 +14,7 @@
 #include "shared/double_float.glsl"
 #include "shared/ray.glsl"
 #include "shared/seen.glsl"
-#include "shared/cells.glsl"
+#include "shared/way.glsl"
 
 #include "shared/boundary.glsl"
 
@@ -32,6 +32,9 @@ layout(set = 0, binding = 66) uniform sampler2D tet_entry;
 // How near it is (greater is nearer), one more than the number of the face; depth from the middle of the mesh, and x.
 layout(location = 0) out vec4 entered;
 
+// Beyond every face.
+const uint NO_FACE = 0xffffffffu;
+
 // Faces that are looked at before the ray counts as one that misses: the raster is much finer than faces are.
 const int MOST_FACES = 12;
 
@@ -45,14 +48,14 @@ void main() {
     Line line = line_through(pixel);
 #ifdef BEGINS
     uint face = texelFetch(tet_begin, ivec2(gl_FragCoord.xy), 0).r - 1u;
-    bool found = face == NOTHING;
+    bool found = face == NO_FACE;
 #else
     uint face = triangle;
     bool found = false;
 #endif
     bool shown = false;
     vec2 at = vec2(0.0);
-    for (int i = 0; i < MOST_FACES && !found && face != NOTHING; ++i) {
+    for (int i = 0; i < MOST_FACES && !found && face != NO_FACE; ++i) {
         Entrance entrance = entrance_by(line, face);
         if (!any(entrance.lefts)) {
             found = true;

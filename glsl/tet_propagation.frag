@@ -22,13 +22,17 @@ layout(location = 0) out vec2 next_cell;
 layout(location = 1) out vec2 next_point;
 layout(location = 2) out vec4 gathered;
 
-// A ray that enters a cell by a side, as traversal data have it.
-Way way_into(Line line, uint side, vec2 at) {
-    uvec4 corners = tet_cells.list[side >> 2];
-    uint place = side & 3u;
+// Corners of each cell, by rising numbers.
+layout(set = 0, binding = 70, std430) readonly buffer TetCells {
+    uvec4 list[];
+} tet_cells;
+
+// A ray that enters a cell by the face opposite to a corner, as traversal data have it.
+Way way_into(Line line, uint cell, uint place, vec2 at) {
+    uvec4 corners = tet_cells.list[cell];
     uvec3 face = place == 0u ? corners.yzw : place == 1u ? corners.xzw : place == 2u ? corners.xyw : corners.xyz;
     Way way;
-    way.side = side;
+    way.side = 4u * cell + place + 1u;
     way.a = seen(line, face.x);
     way.b = seen(line, face.y);
     way.c = seen(line, face.z);
@@ -54,12 +58,12 @@ void main() {
         vec2 here = texelFetch(tet_cell, texel, 0).xy;
         if (here.x > 0.0) {
             Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
-            Way way = way_into(line, (uint(here.x) - 1u) * 4u + uint(here.y), texelFetch(tet_point, texel, 0).xy);
+            Way way = way_into(line, uint(here.x) - 1u, uint(here.y), texelFetch(tet_point, texel, 0).xy);
             Way next = leave(line, way);
             gathered = cell_light(line, way.at, next.at);
             next_point = next.at;
             if (next.side != NOTHING) {
-                next_cell = vec2(float(next.side >> 2) + 1.0, float(next.side & 3u));
+                next_cell = vec2(float((next.side - 1u) >> 2) + 1.0, float((next.side - 1u) & 3u));
             }
         }
     }

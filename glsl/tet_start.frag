@@ -31,7 +31,7 @@ layout(location = 2) out vec4 gathered;
 void main() {
     vec4 entered = texelFetch(tet_entry, ivec2(gl_FragCoord.xy), 0);
     uint side = entered.y > 0.0 ? tet_boundary.list[2u * (uint(entered.y) - 1u)].x : 0u;
-    cell = entered.y > 0.0 ? vec2(float(side >> 2) + 1.0, float(side & 3u)) : vec2(0.0);
+    cell = side > 0u ? vec2(float((side - 1u) >> 2) + 1.0, float((side - 1u) & 3u)) : vec2(0.0);
     point = entered.zw;
 #ifdef VALUES
 #ifdef GOES_ON

@@ -7,8 +7,10 @@ use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
-use depthleap::scene::Scene;
 use depthleap::scene::settings::{Classification, Settings};
+use depthleap::scene::tetrahedra::builtin;
+use depthleap::scene::volume::{Volume, Voxels};
+use depthleap::scene::{Content, Scene};
 use depthleap::truth::exact::ExactIntegrator;
 
 fn scene(name: &str, change: impl FnOnce(&mut Settings)) -> Scene {
@@ -126,4 +128,40 @@ fn the_error_of_a_table_falls_with_its_size() {
     for pair in errors.windows(2) {
         assert!(pair[1] < 0.35 * pair[0], "{errors:?}");
     }
+}
+
+/// What the voxels of a lattice show, and the cells that it is cut into: both are linear between points, so that pictures differ by the
+/// square of the distance between them.
+#[test]
+fn a_lattice_of_voxels_cut_into_cells_shows_what_the_voxels_do() {
+    let off = |boxes: usize| {
+        let side = boxes + 1;
+        // Smooth, and 0 to all faces.
+        let value = |p: [f64; 3]| p.map(|c| (c * std::f64::consts::PI).cos().max(0.0).powi(2)).iter().product::<f64>();
+        let mut grid = builtin::mesh(&format!("tets-cube:{boxes}")).unwrap().unwrap();
+        grid.values = grid.points.iter().map(|point| value(*point)).collect();
+        let voxels = grid.values.iter().map(|value| *value as f32).collect();
+        let volume = Volume::new("lattice", [side; 3], [1.0; 3], Voxels::F32(voxels)).unwrap();
+        let settings = |scale: f64| {
+            let mut settings = Settings::default();
+            settings.image.size = [25, 21];
+            (settings.transfer.preset, settings.transfer.reference) = (Some("linear".to_owned()), boxes as f64 / 8.0);
+            settings.sampling.termination = 1.0;
+            settings.camera.eye = [0.8974, 0.6533, 1.5544].map(|c| c * scale);
+            settings
+        };
+        // The volume's longest side is that of its voxels, half of one beyond the points at each end.
+        let of_voxels = read::scene_of(&settings(1.0), |_| Ok(volume)).unwrap();
+        let mut of_cells = settings(side as f64 / boxes as f64);
+        of_cells.method.name = TET_SINGLE_PASS.name();
+        let of_cells = read::scene_of(&of_cells, |_| Ok(Content::Cells(grid))).unwrap();
+        assert!((of_cells.field.finest() * boxes as f64 - 1.0).abs() < 1e-6);
+        let (cells, voxels) = (twin(&of_cells, &TET_SINGLE_PASS), exact(&of_voxels));
+        assert!(voxels.iter().any(|pixel| pixel[3] > 0.5));
+        apart(&cells, &voxels)
+    };
+    let errors = [8, 16, 32].map(off);
+    println!("cells differ from voxels by {errors:?} for 8, 16 and 32 boxes a side");
+    assert!(errors[0] < 0.1, "{errors:?}");
+    assert!(errors[1] < 0.35 * errors[0] && errors[2] < 0.35 * errors[1], "{errors:?}");
 }

@@ -1,6 +1,6 @@
-// Faces of the boundary of a mesh, by which rays enter. Needs cells.glsl.
+// Faces of the boundary of a mesh, by which rays enter. Needs way.glsl.
 
-// Two rows a face: its side and its three corners, which go round to the left seen from outside; then the faces beside it, over the edges
+// Two rows a face: one more than its side (cells.glsl), and its three corners, which go round to the left seen from outside; then the faces beside it, over the edges
 // from each of its corners to the next.
 layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
     uvec4 list[];

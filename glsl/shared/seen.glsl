@@ -66,7 +66,7 @@ Line line_through(vec2 pixel) {
     line.down = along.x < 0.0;
     vec2 first = line.axis == 0 ? directions[1] : line.axis == 1 ? directions[2] : directions[0];
     vec2 second = line.axis == 0 ? directions[2] : line.axis == 1 ? directions[0] : directions[1];
-    vec2 shear = vec2(df_divide(first, along).x, df_divide(second, along).x);
+    precise vec2 shear = vec2(df_divide(first, along).x, df_divide(second, along).x);
     line.shear = line.down ? shear.yx : shear;
     line.along = along.x;
     line.stretch = df_sqrt(square).x;

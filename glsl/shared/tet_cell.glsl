@@ -5,6 +5,7 @@
 #include "shared/ray.glsl"
 #include "shared/pixel.glsl"
 #include "shared/seen.glsl"
+#include "shared/way.glsl"
 #include "shared/cells.glsl"
 #include "shared/opacity.glsl"
 #include "shared/logarithm.glsl"

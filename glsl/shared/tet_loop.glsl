@@ -24,9 +24,11 @@ vec4 begin_in_mesh() {
 
 // Goes on through cells from a face of the boundary, where there is one, to the next, with what the ray holds.
 vec4 through_cells(Line line, vec4 entered, vec4 held) {
-    Way way = entrance_by(line, uint(max(entered.y, 1.0)) - 1u).way;
-    way.side = entered.y > 0.0 ? way.side : NOTHING;
-    while (way.side != NOTHING && !IS_ENDED(held)) {
+    Entrance entrance = entrance_by(line, uint(max(entered.y, 1.0)) - 1u);
+    Way way = entrance.way;
+    way.side = entered.y > 0.0 && !any(entrance.lefts) ? way.side : NOTHING;
+    // No ray goes through more cells than there are.
+    for (int left_over = tet_codes.list.length(); left_over > 0 && way.side != NOTHING && !IS_ENDED(held); --left_over) {
         Way next = leave(line, way);
         held = joined(held, cell_light(line, way.at, next.at));
         way = next;

@@ -18,15 +18,11 @@ use crate::resource;
 use crate::scene::settings::{Cull, Mark};
 use crate::twin;
 
-/// What every shader reads that knows the mesh.
-const MESH: [Resource; 6] = [
-    resource::FRAME,
-    resource::TET_VIEW,
-    resource::TET_POINTS,
-    resource::TET_CELLS,
-    resource::TET_ACROSS,
-    resource::TET_BOUNDARY,
-];
+/// What every shader reads that sees vertices.
+const VERTICES: [Resource; 3] = [resource::FRAME, resource::TET_VIEW, resource::TET_POINTS];
+
+/// What goes from cell to cell reads besides.
+const CELLS: [Resource; 2] = [resource::TET_CODES, resource::TET_ACROSS];
 
 /// Whether rays begin within the mesh, behind the layer 0 then.
 pub fn begins(context: &Context) -> bool {
@@ -37,7 +33,8 @@ pub fn begins(context: &Context) -> bool {
 pub fn begin(context: &Context) -> Step {
     let mut draw = Draw::plain(&SCREEN, "tet_enter.frag", twin::tetrahedra::enter);
     let mut accesses = vec![Usage::Vertices.of(resource::SCREEN_CORNERS), Usage::Sampled.of(resource::TET_BEGIN)];
-    accesses.extend(MESH.map(|resource| Usage::Sampled.of(resource)));
+    accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
+    accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
     draw.define(["BEGINS"]);
     draw.define(ORTHOGRAPHIC.define(context));
     accesses.push(Usage::Color.of(resource::TET_ENTRY));
@@ -48,7 +45,8 @@ pub fn begin(context: &Context) -> Step {
 pub fn enter(context: &Context, layer: u32) -> Step {
     let mut draw = Draw::plain(&BOUNDARY, "tet_enter.frag", twin::tetrahedra::enter);
     let mut accesses = vec![Usage::Vertices.of(resource::TET_CORNERS), Usage::Sampled.of(resource::PLACEMENT)];
-    accesses.extend(MESH.map(|resource| Usage::Sampled.of(resource)));
+    accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
+    accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
     draw.define(ORTHOGRAPHIC.define(context));
     if let Some(before) = layer.checked_sub(1) {
         accesses.push(Usage::Sampled.of(resource::TET_ENTRY.at(before as u16)));
@@ -90,8 +88,8 @@ pub fn single_pass_compute(context: &Context, layer: u32) -> Step {
 
 /// What the loop behind a layer reads, its defines and its constants.
 fn through_cells(context: &Context, layer: u32) -> (Vec<Resource>, Vec<&'static str>, Vec<Constant>) {
-    let mut reads = MESH.to_vec();
-    reads.push(resource::TET_ENTRY.at(layer as u16));
+    let mut reads = [&VERTICES[..], &CELLS].concat();
+    reads.extend([resource::TET_BOUNDARY, resource::TET_ENTRY.at(layer as u16)]);
     reads.extend(cells::reads(context));
     let mut defines = cells::defines(context);
     defines.extend(ORTHOGRAPHIC.define(context));
@@ -148,7 +146,8 @@ pub fn propagate(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
     let mut draw = Draw::plain(&SCREEN, "tet_propagation.frag", twin::tetrahedra::propagate);
     let (from, to) = ((pass % 2) as u16, ((pass + 1) % 2) as u16);
     let mut accesses = vec![Usage::Vertices.of(resource::SCREEN_CORNERS)];
-    accesses.extend(MESH.map(|resource| Usage::Sampled.of(resource)).into_iter().take(MESH.len() - 1));
+    let read = VERTICES.into_iter().chain(CELLS).chain([resource::TET_CELLS]);
+    accesses.extend(read.map(|resource| Usage::Sampled.of(resource)));
     accesses.extend(cells::reads(context).into_iter().map(|resource| Usage::Sampled.of(resource)));
     accesses.extend([resource::TET_CELL, resource::TET_POINT].map(|set| Usage::Sampled.of(set.at(from))));
     accesses.extend([resource::TET_CELL, resource::TET_POINT].map(|set| Usage::Color.of(set.at(to))));

@@ -39,14 +39,14 @@ pub use structure::{
 };
 pub use surface::{LIGHTS, SURFACE_HIT, SURFACE_LEVELS, WHITE_LIGHTS};
 pub use tetrahedra::{
-    TET_ACROSS, TET_BEGIN, TET_BOUNDARY, TET_CELL, TET_CELLS, TET_CORNERS, TET_ENTRY, TET_POINT, TET_POINTS, TET_TABLE,
-    TET_VIEW,
+    TET_ACROSS, TET_BEGIN, TET_BOUNDARY, TET_CELL, TET_CELLS, TET_CODES, TET_CORNERS, TET_ENTRY, TET_POINT, TET_POINTS,
+    TET_TABLE, TET_VIEW,
 };
 
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 79] = [
+pub const RESOURCES: [Resource; 80] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -78,6 +78,7 @@ pub const RESOURCES: [Resource; 79] = [
     TET_CORNERS,
     TET_POINTS,
     TET_CELLS,
+    TET_CODES,
     TET_ACROSS,
     TET_BOUNDARY,
     TET_VIEW,

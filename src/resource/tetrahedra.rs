@@ -58,12 +58,25 @@ static TET_CELLS_INFO: ResourceInfo = of_mesh(
     },
 );
 
+/// Corners of cells in a number.
+pub const TET_CODES: Resource = Resource::new(&TET_CODES_INFO);
+static TET_CODES_INFO: ResourceInfo = of_mesh(
+    "tet_codes",
+    "the exclusive or of the numbers of the four vertices of each cell",
+    ResourceKind::Storage(|facts, _| (size_of::<u32>() * of(facts, |mesh| mesh.cells.len())) as u64),
+    |facts| {
+        let code = |cell: &[u32; 4]| cell.iter().fold(0, |code, corner| code ^ corner);
+        let codes = of(facts, |mesh| mesh.cells.iter().map(code).collect::<Vec<_>>());
+        bytemuck::cast_slice(&codes).to_vec().into()
+    },
+);
+
 /// Neighbours of cells.
 pub const TET_ACROSS: Resource = Resource::new(&TET_ACROSS_INFO);
 static TET_ACROSS_INFO: ResourceInfo = of_mesh(
     "tet_across",
-    "the side across the face opposite to each vertex of a cell, as its cell times 4 and the place of the vertex opposite to it there; all \
-     bits on the boundary",
+    "one more than the side across the face opposite to each vertex of a cell, as its cell times 4 and the place of the vertex opposite to it \
+     there; 0 on the boundary",
     ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.across.len())) as u64),
     |facts| {
         let rows = of(facts, |mesh| (0..mesh.cells.len()).map(|cell| across(mesh, cell)).collect::<Vec<_>>());
@@ -78,11 +91,11 @@ fn by_place(mesh: &Tetrahedra, side: u32) -> u32 {
     side / 4 * 4 + cell.iter().filter(|other| **other < corner).count() as u32
 }
 
-/// The sides across those of a cell, by places.
+/// One more than the sides across those of a cell, by places; 0 on the boundary.
 fn across(mesh: &Tetrahedra, cell: usize) -> [u32; 4] {
-    let mut sides = [NOTHING; 4];
+    let mut sides = [0; 4];
     for (corner, other) in mesh.across[cell].iter().enumerate().filter(|(_, other)| **other != NOTHING) {
-        sides[by_place(mesh, (4 * cell + corner) as u32) as usize % 4] = by_place(mesh, *other);
+        sides[by_place(mesh, (4 * cell + corner) as u32) as usize % 4] = by_place(mesh, *other) + 1;
     }
     sides
 }
@@ -91,13 +104,13 @@ fn across(mesh: &Tetrahedra, cell: usize) -> [u32; 4] {
 pub const TET_BOUNDARY: Resource = Resource::new(&TET_BOUNDARY_INFO);
 static TET_BOUNDARY_INFO: ResourceInfo = of_mesh(
     "tet_boundary",
-    "of each face of the boundary its side, its vertices and the numbers of the three faces beside it, rows of boundary.glsl",
+    "of each face of the boundary one more than its side, its vertices and the numbers of the three faces beside it, rows of boundary.glsl",
     ResourceKind::Storage(|facts, _| (size_of::<[[u32; 4]; 2]>() * of(facts, |mesh| mesh.boundary.len())) as u64),
     |facts| {
         let rows = of(facts, |mesh| {
             let row = |(side, [a, b, c]): (&u32, &[u32; 3])| {
                 let [u, v, w] = FACES[*side as usize % 4].map(|corner| mesh.cells[*side as usize / 4][corner]);
-                [[by_place(mesh, *side), u, v, w], [*a, *b, *c, 0]]
+                [[by_place(mesh, *side) + 1, u, v, w], [*a, *b, *c, 0]]
             };
             mesh.boundary.iter().zip(&mesh.beside).map(row).collect::<Vec<_>>()
         });

@@ -56,8 +56,8 @@ const FILES: [(&str, &str); 2] = [("bluntfin_tet.vtk", "density"), ("post_grid.v
 
 pub fn tests() -> Vec<Test> {
     let mut tests = Vec::new();
-    for (name, of_mesh) in MESHES {
-        for (view, of_view) in VIEWS {
+    for (turn, (name, of_mesh)) in MESHES.into_iter().enumerate() {
+        for (number, (view, of_view)) in VIEWS.into_iter().enumerate() {
             let scene = move || {
                 shown(|s| {
                     s.volume.builtin = Some(name.to_owned());
@@ -66,7 +66,8 @@ pub fn tests() -> Vec<Test> {
                 })
             };
             let (mesh, size) = name.split_once(':').unwrap_or((name, ""));
-            tests.push(test(&format!("tetrahedra::{mesh}_{size}_{view}"), move |device| all_methods(device, &scene())));
+            let one = test(&format!("tetrahedra::{mesh}_{size}_{view}"), move |device| all_methods(device, &scene()));
+            tests.push(one.needs(Need::Turn(number + turn)));
         }
     }
     for (file, array) in FILES {
