@@ -14,7 +14,7 @@ use std::sync::LazyLock;
 use bytemuck::Zeroable;
 use depthleap::glsl::compile::{CompiledModule, compile_unoptimised};
 use depthleap::glsl::{self, Shader};
-use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, PushStep, Slice, SliceCut, Slices};
+use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, PushStep, Slice, SliceCut, Slices, TetView};
 use rayon::prelude::*;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -114,6 +114,10 @@ fn clip_plane() -> Layout {
 
 fn slices() -> Layout {
     layout!(Slices { first, spacing, steps, count })
+}
+
+fn tet_view() -> Layout {
+    layout!(TetView { table, middle, lengths })
 }
 
 fn slice_cut() -> Layout {
@@ -283,6 +287,11 @@ fn slice_cut_is_alike_in_rust_and_in_the_vertex_shader() {
     let module = load_words(&compile_unoptimised(&text, &[]).unwrap().words).unwrap();
     let shader = Types::of(&module).layout("SliceCut").unwrap();
     assert_eq!(differences(&slice_cut(), &shader), [""; 0]);
+}
+
+#[test]
+fn tet_view_is_alike_in_rust_and_in_every_shader() {
+    assert_alike("TetView", &tet_view(), "tet_single_pass.frag:TABLE");
 }
 
 #[test]

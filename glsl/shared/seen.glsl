@@ -9,12 +9,12 @@ layout(set = 0, binding = 60, std430) readonly buffer TetPoints {
 } tet_points;
 
 layout(set = 0, binding = 61, std140) uniform TetView {
+    // Of the table of ways: the first value, nodes in a unit of x, and nodes in a reference length.
+    vec4 table;
     // Depth of the middle of the mesh, a double-float.
     vec2 middle;
     // Reference lengths in a unit of volume space.
     float lengths;
-    // Of the table of ways: the first value, nodes in a unit of x, and nodes in a reference length.
-    vec4 table;
 } tet_view;
 
 struct Line {

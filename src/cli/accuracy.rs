@@ -23,7 +23,8 @@ use crate::scene::settings::MethodName;
 /// why it may differ from theory's, and which method at which step is the fastest within an error of 1/255 and 1/1000.
 /// Of an iso-surface (--iso) it measures where rays meet it, its normals and its colours, each by itself, by every way to find
 /// places and to take gradients, against the root of the interpolant and its gradient there. Shells (--shells max or sum) are drawn in
-/// ever larger numbers, beside rays with ever shorter steps.
+/// ever larger numbers, beside rays with ever shorter steps. Ways through the cells of a mesh are integrated exactly, and looked up in
+/// tables of ever more nodes.
 /// Writes accuracy.json, .csv, .html and two plots as SVG. Unless a scene file or an option says otherwise, pictures have
 /// 160x160 pixels and rays end at an opacity of 0.999.
 #[derive(Debug, Args)]
@@ -32,6 +33,7 @@ use crate::scene::settings::MethodName;
   depthleap accuracy fuel.nrrd --method rc,nn-omni --steps 2,1,0.5,0.25 -o out
   depthleap accuracy builtin:gaussian:64 --iso 0.4 -o out
   depthleap accuracy neghip.nrrd --shells sum --method shells,nn-omni -o out
+  depthleap accuracy bluntfin_tet.vtk --array density -o out
   depthleap accuracy builtin:marschner-lobb:41 --full --viewport 100x100 -o out")]
 pub struct AccuracyCommand {
     /// Scene file (.toml), volume file, mesh file, builtin:NAME:SIZE or a built-in scene [default: builtin:shells:64]
@@ -49,6 +51,9 @@ pub struct AccuracyCommand {
     /// Numbers of shells of --method shells, with commas between
     #[arg(long, value_name = "N,...", value_delimiter = ',', default_values = SHELL_COUNTS)]
     shell_counts: Vec<u32>,
+    /// Nodes along a side of the tables of ways through the cells of a mesh, with commas between
+    #[arg(long, value_name = "N,...", value_delimiter = ',', default_values = TABLE_SIZES)]
+    table_sizes: Vec<u32>,
     /// Every way of sampling, by every method
     #[arg(long)]
     full: bool,
@@ -73,6 +78,8 @@ const STEPS: [&str; 8] = ["8", "4", "2", "1", "0.5", "0.25", "0.125", "0.0625"];
 
 const SHELL_COUNTS: [&str; 6] = ["4", "8", "16", "32", "64", "128"];
 
+const TABLE_SIZES: [&str; 5] = ["8", "16", "32", "64", "128"];
+
 /// A picture's side where nothing else is said: the exact integral takes its time.
 const SIDE: u32 = 160;
 
@@ -94,8 +101,10 @@ impl AccuracyCommand {
             name: scene_name(&settings),
             settings,
             methods: self.method.clone(),
+            by_default: self.method == METHODS,
             steps: self.steps.clone(),
             shell_counts: self.shell_counts.clone(),
+            table_sizes: self.table_sizes.clone(),
             full: self.full,
             repeats: self.repeats,
         };

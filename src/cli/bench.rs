@@ -103,6 +103,7 @@ impl BenchCommand {
         let job = BenchJob {
             scenes: self.scenes.iter().map(scene).collect::<Result<_>>()?,
             methods: self.method.iter().flat_map(AskedMethods::names).collect(),
+            by_default: self.method == BENCH_METHODS.map(AskedMethods::One),
             where_drawn: self.method.contains(&AskedMethods::All),
             all_forms: self.forms == Forms::All,
             cells: self.cells.clone(),

@@ -114,6 +114,11 @@ pub fn takes(name: MethodName, scene: &Scene) -> bool {
     find(name).is_some_and(|method| (method.takes)(&scene).is_ok())
 }
 
+/// The methods that go through the cells of a mesh.
+pub fn of_cells() -> Vec<MethodName> {
+    METHODS.into_iter().filter(|method| method.goes_through_cells()).map(Method::name).collect()
+}
+
 /// Whether the picture of the method of that name is made of samples.
 pub fn takes_samples(name: MethodName) -> bool {
     find(name).is_none_or(Method::takes_samples)

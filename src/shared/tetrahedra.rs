@@ -11,10 +11,9 @@ use crate::truth::cell_table::TableAxes;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TetView {
+    pub table: [f32; 4],
     pub middle: [f32; 2],
     pub lengths: f32,
-    pub padding: f32,
-    pub table: [f32; 4],
 }
 
 impl TetView {
@@ -22,11 +21,6 @@ impl TetView {
         let lengths = 1.0 / (scene.transfer.reference * scene.field.finest());
         let axes = TableAxes::of(scene).filter(|_| scene.has_cell_table());
         let table = axes.map_or([0.0; 4], |axes| [axes.values[0], axes.per_value(), axes.per_length(), 0.0]);
-        Self {
-            middle: double_float(view.middle),
-            lengths: lengths as f32,
-            padding: 0.0,
-            table: table.map(|number| number as f32),
-        }
+        Self { table: table.map(|number| number as f32), middle: double_float(view.middle), lengths: lengths as f32 }
     }
 }

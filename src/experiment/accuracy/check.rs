@@ -1,24 +1,26 @@
 //! What is refused before a device is opened.
 
 use super::AccuracyJob;
+use super::cells;
 use super::shells;
 use super::way::with_step;
 use crate::error::{Error, Result};
 use crate::method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::Shows;
+use crate::scene::settings::{MethodName, Shows};
 
-/// Whether a job can be measured, before any file is read.
+/// Whether a job can be measured.
 ///
 /// # Errors
 /// When a method, a step or what a surface shows cannot be.
-pub fn check_settings(job: &AccuracyJob) -> Result<()> {
+pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
     if job.methods.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
     }
-    if job.methods.iter().any(|method| !method::takes_samples(*method)) {
+    let of_shells = |name: &MethodName| !method::takes_samples(*name) && !method::of_cells().contains(name);
+    if scene.tetrahedra.is_none() && job.methods.iter().any(of_shells) {
         shells::check(&job.settings)?;
     }
     if job.settings.surface.shows != Shows::Color {
@@ -65,6 +67,16 @@ pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
     }
     for method in &job.methods {
         let row = method::of(*method)?;
+        if row.goes_through_cells() {
+            for (_, _, sizes) in cells::ways(scene, &job.table_sizes) {
+                for nodes in sizes {
+                    let mut scene = cells::with_table(scene, nodes)?;
+                    scene.settings.method.name = *method;
+                    plan::check(&scene)?;
+                }
+            }
+            continue;
+        }
         if !row.takes_samples() {
             for count in job.shell_numbers() {
                 let mut scene = shells::with_shells(scene, count)?;

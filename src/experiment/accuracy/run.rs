@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::cells;
 use super::check::{check_scene, check_settings};
 use super::shells;
 use super::surface::{ExactSurface, SurfacePictures, exact, shows_only, surface_error, surface_orders};
@@ -24,14 +25,19 @@ use crate::scene::Scene;
 use crate::scene::settings::{MethodName, MethodSettings, Settings, Shows};
 
 /// What is to be measured.
+#[derive(Clone)]
 pub struct AccuracyJob {
     pub name: String,
     pub settings: Settings,
     pub methods: Vec<MethodName>,
+    /// Whether nobody asked for these methods: a mesh of cells is drawn by those that go through cells then.
+    pub by_default: bool,
     /// Voxels.
     pub steps: Vec<f64>,
     /// Numbers of shells, of methods that take no samples.
     pub shell_counts: Vec<u32>,
+    /// Nodes along a side of tables of ways through cells.
+    pub table_sizes: Vec<u32>,
     /// Every way of sampling by every method.
     pub full: bool,
     /// Frames timed for each picture.
@@ -59,38 +65,53 @@ impl AccuracyJob {
     /// When the scene, a method or a step is refused, or the driver fails.
     pub fn run(&self, host: &Host) -> Result<(Accuracy, Picture)> {
         let settings = &self.settings;
-        check_settings(self)?;
         let scene = read::scene(settings)?;
-        check_scene(self, &scene)?;
-        let surface = ExactSurface::of(&scene)?;
+        let methods = match self.by_default && scene.tetrahedra.is_some() {
+            true => method::of_cells(),
+            false => self.methods.clone(),
+        };
+        let job = Self { methods, ..self.clone() };
+        job.measure(&scene, host)
+    }
+
+    fn measure(&self, scene: &Scene, host: &Host) -> Result<(Accuracy, Picture)> {
+        let settings = &self.settings;
+        check_settings(self, scene)?;
+        check_scene(self, scene)?;
+        let surface = ExactSurface::of(scene)?;
         let checked = (host.open)()?;
         let provenance = Provenance::now(FORMAT);
         (host.say)("exact integral");
-        let truth = exact(&scene)?;
+        let truth = exact(scene)?;
         let opaque = f64::from(truth.pixels.iter().map(|p| p[3]).fold(0.0, f32::max)) > settings.sampling.termination;
         let surface = surface.as_ref();
-        let asked = Asked { checked: &checked, scene: &scene, own: Way::of(settings), truth: &truth, surface, opaque };
+        let asked = Asked { checked: &checked, scene, own: Way::of(settings), truth: &truth, surface, opaque };
         let (ways, left_out) = self.ways(&asked);
         let mut curves = Vec::new();
         let sampled = self.sampled();
         for (i, way) in ways.iter().enumerate() {
-            let count = if self.full || i < for_all(&scene) { sampled.len() } else { 1 };
+            let count = if self.full || i < for_all(scene) { sampled.len() } else { 1 };
             (host.say)(&format!("{} of {} ways of sampling", i + 1, ways.len()));
             curves.extend(self.curves(&asked, *way, &sampled[..count.min(sampled.len())])?);
         }
         for name in self.methods.iter().copied().filter(|name| !method::takes_samples(*name)) {
-            (host.say)(&format!("{name} by their number"));
-            curves.push(self.shell_curve(&asked, name)?);
+            if method::of(name)?.goes_through_cells() {
+                (host.say)(&format!("{name} by tables"));
+                curves.extend(self.cell_curves(&asked, name)?);
+            } else {
+                (host.say)(&format!("{name} by their number"));
+                curves.push(self.shell_curve(&asked, name)?);
+            }
         }
         mark_pareto(&mut curves);
-        let mut remarks = remarks_on_all(&scene);
+        let mut remarks = remarks_on_all(scene);
         remarks.extend(left_out);
         let info = checked.device.info.clone();
         (host.close)(checked)?;
         let found = Accuracy {
             provenance,
             scene: self.name.clone(),
-            view: view_in_words(&scene),
+            view: view_in_words(scene),
             device: info.name.clone(),
             driver: format!("{} {}", info.driver_name, info.driver_info),
             clock: (self.repeats > 0).then(|| Clock::on(info.is_cpu(), info.timestamp_valid_bits > 0)),
@@ -193,6 +214,30 @@ impl AccuracyJob {
         curve.order = fit(&errors);
         Ok(curve)
     }
+
+    /// The exact integral of each way through a cell, and tables of ever more nodes where there are colours.
+    fn cell_curves(&self, asked: &Asked, name: MethodName) -> Result<Vec<Curve>> {
+        let Asked { checked, scene, .. } = *asked;
+        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
+        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
+        let mut curves = Vec::new();
+        for (variation, expected, sizes) in cells::ways(scene, &self.table_sizes) {
+            let own = curve(asked, asked.own, scene, name);
+            let mut curve = Curve { variation, expected, remarks: Vec::new(), ..own };
+            for nodes in sizes {
+                let mut runner = Runner::new(Some(checked), cells::with_table(scene, nodes)?, String::new());
+                for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
+                    let step = nodes.map_or(scene.settings.sampling.step, |nodes| 1.0 / f64::from(nodes - 1));
+                    let point = point(step, 1, &one, asked.truth, clock)?;
+                    curve.points.push(Point { table: nodes, ..point });
+                }
+            }
+            let errors: Vec<(f64, f64)> = curve.points.iter().filter_map(|p| Some((p.step, p.rmse?))).collect();
+            curve.order = fit(&errors);
+            curves.push(curve);
+        }
+        Ok(curves)
+    }
 }
 
 /// So many ways of sampling are run by every method: of a surface, which all of them find alike, the scene's own.
@@ -266,6 +311,7 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         step,
         samples_per_pass,
         shells: None,
+        table: None,
         max: finite(error.max),
         rmse: finite(error.rmse),
         psnr: error.psnr,
@@ -273,7 +319,7 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         ms,
         timed,
         samples: match one.run.fragment_kind() {
-            Some(FragmentKind::Sample | FragmentKind::Crossing) => one.run.fragments.main,
+            Some(FragmentKind::Sample | FragmentKind::Crossing | FragmentKind::Cell) => one.run.fragments.main,
             _ => one.run.fragments.main.saturating_mul(samples_per_pass.into()),
         },
         pareto: false,

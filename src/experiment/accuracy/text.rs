@@ -16,6 +16,9 @@ pub(super) fn table(curve: &Curve) -> Table {
     if curve.is_of_shells() {
         columns[0] = Column::numbers("shells");
         columns[6] = Column::numbers("fragments");
+    } else if curve.is_of_tables() {
+        columns[0] = Column::numbers("nodes");
+        columns[6] = Column::numbers("fragments");
     }
     columns.extend(surface.into_iter().filter(|_| has_surface));
     let mut table = Table::new(columns);
@@ -44,7 +47,7 @@ fn cells(point: &Point) -> [String; 7] {
     let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
     let front = if point.pareto { " *" } else { "" };
     [
-        point.shells.map_or_else(|| point.step.to_string(), |count| count.to_string()),
+        point.shells.or(point.table).map_or_else(|| point.step.to_string(), |count| count.to_string()),
         error(point.max),
         error(point.rmse),
         number(point.psnr, 1),
@@ -65,6 +68,11 @@ pub(super) fn order(curve: &Curve) -> String {
         None if curve.is_of_shells() => {
             format!("no order: the error does not fall with the number of shells ({theory})")
         }
+        Some(fit) if curve.is_of_tables() => {
+            let [few, many] = fit.steps.map(|part| (1.0 / part).round() + 1.0);
+            format!("order {:.2} in the distance of nodes, over {few} to {many} a side ({theory})", fit.order)
+        }
+        None if curve.is_of_tables() => format!("no order: the error does not fall with the nodes ({theory})"),
         fit => fitted(fit.as_ref(), &theory),
     }
 }
@@ -127,7 +135,8 @@ pub fn csv(found: &Accuracy) -> Result<String> {
     let has_surface = found.curves.iter().any(has_surface);
     let has_shells = found.curves.iter().any(Curve::is_of_shells);
     let heads = head.split(',').chain(of_surface.split(',').filter(|_| has_surface));
-    let heads = heads.chain(has_shells.then_some("shells"));
+    let has_tables = found.curves.iter().any(Curve::is_of_tables);
+    let heads = heads.chain(has_shells.then_some("shells")).chain(has_tables.then_some("table"));
     let mut table = Table::new(heads.map(Column::words).collect());
     let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for curve in &found.curves {
@@ -154,6 +163,7 @@ pub fn csv(found: &Accuracy) -> Result<String> {
             ];
             row.extend(surface_fields(curve, point).into_iter().filter(|_| has_surface));
             row.extend(has_shells.then(|| point.shells.map(|count| count.to_string()).unwrap_or_default()));
+            row.extend(has_tables.then(|| point.table.map(|nodes| nodes.to_string()).unwrap_or_default()));
             table.row(row);
         }
     }

@@ -28,6 +28,8 @@ pub struct BenchJob {
     /// Each with its name.
     pub scenes: Vec<(String, Settings)>,
     pub methods: Vec<MethodName>,
+    /// Whether nobody asked for these methods: a mesh of cells is drawn by those that go through cells then.
+    pub by_default: bool,
     /// Whether methods that do not draw a scene are left out of it; else they are refused.
     pub where_drawn: bool,
     /// Every form of culling and marking that the device has, instead of the scene's.
@@ -100,7 +102,8 @@ impl BenchJob {
     /// The methods of one scene, in every form that is asked for.
     fn variants(&self, checked: Option<&Checked>, scene: &Scene) -> Vec<MethodSettings> {
         let (mut variants, settings) = (Vec::new(), &scene.settings);
-        for &name in &self.methods {
+        let of_cells = (self.by_default && scene.tetrahedra.is_some()).then(method::of_cells);
+        for &name in of_cells.as_ref().unwrap_or(&self.methods) {
             if name.is_auto() {
                 variants.push(self.chosen_freely(settings));
                 continue;
