@@ -86,7 +86,7 @@ fn walked(mesh: &Tetrahedra, origin: DVec3, direction: DVec3) -> HashSet<u32> {
             assert_eq!(way.from, last);
             assert!(way.to.depth >= way.from.depth - 1e-9, "goes back from {origin} along {direction}: {way:?}");
             last = way.to;
-            let left = mesh.leave(&line, side_of(mesh, &line, way.cell, entry.side, &way));
+            let left = mesh.leave(&line, side_of(mesh, &line, way.cell));
             ends = left.is_some_and(|(side, _)| mesh.across[side as usize / 4][side as usize % 4] == NOTHING);
         }
         assert!(ends, "the way from {origin} along {direction} ends within the mesh");
@@ -95,7 +95,7 @@ fn walked(mesh: &Tetrahedra, origin: DVec3, direction: DVec3) -> HashSet<u32> {
 }
 
 /// The side by which a line enters a cell of its way.
-fn side_of(mesh: &Tetrahedra, line: &Line, cell: u32, _: u32, _: &depthleap::scene::tetrahedra::CellWay) -> u32 {
+fn side_of(mesh: &Tetrahedra, line: &Line, cell: u32) -> u32 {
     let enters = |side: &u32| {
         let [a, b, c] = mesh.face(line, *side);
         through([&a, &b, &c]) == Some(false)
@@ -348,6 +348,18 @@ fn flat_cells_go_with_their_neighbours() {
 
 fn refused(grid: &Grid) -> String {
     Tetrahedra::new(grid, &vec![0.0; grid.values.len()]).unwrap_err().to_string()
+}
+
+/// Columns of flat cells whose only solid neighbour comes last.
+#[test]
+fn flat_cells_in_a_row_are_taken_as_the_solid_one_behind_them() {
+    let count = 20_000u32;
+    let mut points: Vec<[f64; 3]> = (0..count + 3).map(|i| [f64::from(i), f64::from(i % 2), 0.0]).collect();
+    points.push([f64::from(count), 0.0, 1.0]);
+    let mut cells: Vec<[u32; 4]> = (0..count).map(|i| [i, i + 1, i + 2, i + 3]).collect();
+    cells.push([count, count + 1, count + 2, count + 3]);
+    let mesh = made(&of(&points, &cells));
+    assert_eq!(mesh.cells.len(), count as usize + 1);
 }
 
 #[test]

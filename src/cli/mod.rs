@@ -55,7 +55,8 @@ const EXAMPLES: &str = "Examples:
 const INPUT: &str = "Input:
   A SCENE is a TOML file or the builtin:NAME of a scene; every option has its key there, an option
   given wins. A VOLUME is an NRRD file, a raw file with --dims and --type, a PLY, OBJ, STL or glTF
-  mesh, of which it is the distance field, or builtin:NAME:SIZE.
+  mesh, of which it is the distance field, a file of VTK (legacy, VTU, VTS, VTR), a mesh of cells, or
+  builtin:NAME:SIZE.
   Without either the volume is builtin:shells:64.";
 
 const NOTES: &str = "Output:

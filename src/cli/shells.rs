@@ -60,6 +60,10 @@ impl ShellsCommand {
         output::check(&[&self.output])?;
         let settings = self.scene_options.settings(self.scene.as_deref())?;
         let scene = read::scene(&settings)?;
+        if scene.tetrahedra.is_some() {
+            let problem = "is a mesh of cells, and shells are made between voxels";
+            return Err(Error::input(&scene.field.volume.name, problem, "give a volume of voxels"));
+        }
         let (field, name) = (&scene.field, scene_name(&settings));
         let (levels, mut warnings) = self.asked(field)?;
         let mut table = Table {

@@ -10,7 +10,7 @@ use crate::part::rows::{Context, Feature};
 use crate::projection::{self, AVERAGE};
 use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::Alpha;
+use crate::scene::settings::{Alpha, Filter};
 
 /// The features that ways through cells are classified by.
 const OF_CELLS: [&Feature; 4] = [&CLASSIFICATION, &COLORS, &TRANSFER_FUNCTION, &FEW_PIECES];
@@ -98,6 +98,11 @@ pub fn takes_cells(scene: &Scene) -> Result<()> {
             "projection.kind (--projection average)",
             "divides by the length of the ray, which of one through a mesh is known at its end alone",
             "use xray, the sum",
+        ),
+        () if settings.sampling.filter == Filter::Nearest => refused(
+            "sampling.filter (--filter nearest)",
+            "asks for the values of voxels alone, and within cells values are linear",
+            "leave it out",
         ),
         () if settings.sampling.alpha == Alpha::Paper => refused(
             "sampling.alpha (--alpha paper)",

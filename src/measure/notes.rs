@@ -14,7 +14,7 @@ pub(super) fn with_effect(effect: &Effect, robust: bool) -> String {
     )
 }
 
-/// What each part of rays between layers of polygons has.
+/// What each part of rays between layers has: of polygons, or of faces by which rays enter a mesh of cells.
 pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
     let layers = &run.fragments.as_ref()?.layers;
     let told = |(i, layer): (usize, &LayerCounts)| {
@@ -26,7 +26,10 @@ pub(super) fn parts_between_layers(run: &FrameRun) -> Option<String> {
     // Behind the last layer that a ray has there is nothing.
     let anything = |layer: &LayerCounts| layer.main + layer.intermediate + layer.pixels.unwrap_or(0) > 0;
     let last = layers.iter().rposition(anything);
-    let parts: Vec<String> = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().map(told).collect();
+    // Rays through cells have no part in front of the first layer.
+    let is_there = |(i, layer): &(usize, &LayerCounts)| *i > 0 || layer.pixels.is_some() || anything(layer);
+    let shown = layers[..last.map_or(0, |last| last + 1)].iter().enumerate().filter(is_there);
+    let parts: Vec<String> = shown.map(told).collect();
     (!parts.is_empty()).then(|| format!("fragments of the parts of rays between layers: {}", parts.join("; ")))
 }
 

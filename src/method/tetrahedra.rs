@@ -54,7 +54,7 @@ fn layers(context: &Context, steps: &mut Steps, through: fn(&Context, u32, &mut 
     }
     for layer in 0..cells.layers() {
         // Without faces there is nothing behind them.
-        steps.enter(layer, layer.checked_sub(begins));
+        steps.enter(layer + 1, layer.checked_sub(begins));
         through(context, layer, steps);
     }
     steps.enter(0, None);

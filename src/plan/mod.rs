@@ -112,6 +112,9 @@ impl LeftOut {
 /// Main passes beyond this many are refused: each is recorded, counted and timed by itself.
 const MOST_PASSES: u32 = 65_536;
 
+/// The most times that rays may enter a mesh of cells: each has an image of its own.
+const MOST_ENTRIES: u32 = 256;
+
 /// Samples of a ray, those beyond its end included; their indices are 32-bit numbers in shaders.
 const MOST_SAMPLES: u64 = 1 << 31;
 
@@ -196,6 +199,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     }
     let passes = passes(scene, &view, method);
     check_slices(scene, &view)?;
+    check_cells(scene, &view, passes)?;
     check_passes(scene, method, passes)?;
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
@@ -233,8 +237,11 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
 
 /// N: main passes of a view.
 fn passes(scene: &Scene, view: &View, method: &Method) -> u32 {
-    if let Some(cells) = view.cells.as_ref().filter(|cells| cells.layers() == 0) {
-        return cells.layers();
+    if let Some(cells) = &view.cells {
+        let meets = cells.layers() > 0 && view.region.pixels() > 0;
+        if method.loops() || !meets {
+            return u32::from(meets);
+        }
     }
     if method.loops() {
         return u32::from(view.longest_samples > 0);
@@ -333,6 +340,27 @@ fn check_slices(scene: &Scene, view: &View) -> Result<()> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Whether the frame of a mesh of cells can be run that rays enter so often, in so many passes behind each entry.
+///
+/// # Errors
+/// When it cannot, with what to change.
+fn check_cells(scene: &Scene, view: &View, passes: u32) -> Result<()> {
+    let Some(cells) = &view.cells else { return Ok(()) };
+    let (layers, name) = (cells.layers(), &scene.field.volume.name);
+    if layers > MOST_ENTRIES {
+        let problem =
+            format!("is entered {layers} times by a ray of this view, and at most {MOST_ENTRIES} times are possible");
+        return Err(Error::input(name, problem, "join cells whose faces lie on each other, or choose another view"));
+    }
+    if layers.saturating_mul(passes) > MOST_PASSES {
+        let problem = format!(
+            "needs {passes} passes behind each of {layers} entries, and at most {MOST_PASSES} are possible in all"
+        );
+        return Err(Error::input(name, problem, "use tet-single-pass, or force fewer passes (--passes)"));
+    }
+    Ok(())
 }
 
 /// Whether a frame of so many main passes can be run.

@@ -47,7 +47,10 @@ pub fn notes(scene: &Scene) -> Vec<String> {
         };
         notes.push(format!(
             "{} not finite, or no data: {becomes}",
-            counted(scene.field.missing, "voxel is", "voxels are")
+            match scene.field.is_of_mesh() {
+                true => counted(scene.field.missing, "point is", "points are"),
+                false => counted(scene.field.missing, "voxel is", "voxels are"),
+            }
         ));
     }
     notes
@@ -89,8 +92,10 @@ fn empty(scene: &Scene, plan: &Plan) -> Option<String> {
     }
     let count = field.values.len();
     if field.missing == count {
-        let every = "the picture is empty: every voxel is NaN, infinite or no data; check --no-data and --nan";
-        return Some(every.to_owned());
+        let each = if field.is_of_mesh() { "point" } else { "voxel" };
+        return Some(format!(
+            "the picture is empty: every {each} is NaN, infinite or no data; check --no-data and --nan"
+        ));
     }
     if field.holes.as_ref().is_some_and(|holes| holes.iter().all(|hole| *hole)) {
         return Some(format!(
@@ -199,6 +204,9 @@ fn no_surface(scene: &Scene) -> String {
 
 /// Whether rays would have samples if it were not for clip planes.
 fn cut_off(scene: &Scene) -> bool {
+    if scene.clip_planes().is_empty() {
+        return false;
+    }
     let whole = Scene { planes: ClipPlanes::default(), ..scene.clone() };
     View::new(&whole).is_ok_and(|view| view.longest_samples > 0)
 }

@@ -6,6 +6,7 @@
 //! **To add a volume format**: one file here, one line in [`FORMATS`], the robustness tests of `tests/read`.
 
 mod backdrop;
+pub mod content;
 mod effect;
 mod environment;
 mod exr_header;

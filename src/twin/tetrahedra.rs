@@ -20,6 +20,11 @@ const VALUE_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 /// A ray on its way through cells: the side by which it enters one, and where.
 pub type CellState = (u32, FacePoint);
 
+/// The layer that the part of the ray lies behind which is drawn.
+fn behind(pixel: &Pixel) -> u32 {
+    pixel.section.saturating_sub(1)
+}
+
 /// Finds the face of a layer by which the ray enters.
 pub fn enter(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
     let found = twin.cell_entry(pixel, layer);
@@ -29,7 +34,7 @@ pub fn enter(twin: &Twin, pixel: &mut Pixel, layer: u32) -> Effect {
 /// The whole way from the face of a layer to the next face of the boundary.
 pub fn single_pass(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let Some((mesh, line)) = twin.mesh_and_line(pixel) else { return Effect::Silent };
-    let Some(entry) = twin.cell_entry(pixel, pixel.section) else { return Effect::Silent };
+    let Some(entry) = twin.cell_entry(pixel, behind(pixel)) else { return Effect::Silent };
     twin.begin_in_mesh(pixel);
     let mut effect = Effect::Silent;
     for way in mesh.chain(&line, entry) {
@@ -47,7 +52,7 @@ pub fn single_pass(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
 
 /// Begins behind the face of a layer.
 pub fn start(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
-    let entry = twin.cell_entry(pixel, pixel.section);
+    let entry = twin.cell_entry(pixel, behind(pixel));
     pixel.cell = entry.map(|entry| (entry.side, entry.at));
     if entry.is_some() {
         twin.begin_in_mesh(pixel);

@@ -156,7 +156,7 @@ fn values_that_are_none_are_replaced_left_out_or_refused() {
     assert_eq!((replaced.field.range, replaced.field.missing), ([2.0, 5.0], 1));
     assert_eq!(replaced.tetrahedra.unwrap().cells.len(), 2);
     assert_eq!(of(Hole).unwrap().tetrahedra.unwrap().cells.len(), 1);
-    assert!(of(Error).unwrap_err().to_string().contains("1 voxels that are NaN"));
+    assert!(of(Error).unwrap_err().to_string().contains("1 points whose values are NaN"));
 }
 
 #[test]
@@ -169,6 +169,43 @@ fn xml_in_every_form_is_the_same_mesh() {
         let flow = read_with(&xml(form), Some("flow"), Some(Component::Magnitude)).unwrap();
         assert_eq!(flow.values, [5.0, 0.0, 1.0, 2.0, 1.0], "{form:?}");
     }
+}
+
+#[test]
+fn pieces_that_meet_share_their_points() {
+    let piece = |value: u32, x: [u32; 4]| {
+        let points: Vec<String> =
+            x.iter().zip(["0 0", "1 0", "0 1", "1 1"]).map(|(x, yz)| format!("{x} {yz}")).collect();
+        let array = |name: &str, kind: &str, components: u32, text: &str| {
+            format!(
+                "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">{text}</DataArray>"
+            )
+        };
+        format!(
+            "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><CellData>{}</CellData><Points>{}</Points><Cells>{}{}{}</Cells></Piece>",
+            array("v", "Float32", 1, &value.to_string()),
+            array("p", "Float32", 3, &points.join(" ")),
+            array("connectivity", "Int32", 1, "0 1 2 3"),
+            array("offsets", "Int32", 1, "4"),
+            array("types", "UInt8", 1, "10")
+        )
+    };
+    let file = |pieces: &str| {
+        format!(
+            "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>{pieces}</UnstructuredGrid></VTKFile>"
+        )
+    };
+    // They have the three points at x = 1 in common, and those the mean of both cells.
+    let both = piece(2, [0, 1, 1, 1]) + &piece(4, [2, 1, 1, 1]);
+    let grid = read_as(file(&both).as_bytes()).cleaned().unwrap();
+    assert_eq!((grid.points.len(), grid.cells.len()), (5, 2));
+    let mut values = grid.values.clone();
+    values.sort_by(f64::total_cmp);
+    assert_eq!(values, [2.0, 3.0, 3.0, 3.0, 4.0]);
+    let unlike = both.replacen("Name=\"v\"", "Name=\"w\"", 1);
+    assert!(refusal(file(&unlike).as_bytes()).contains("in some pieces and not in others"));
+    let deep = format!("<VTKFile type=\"UnstructuredGrid\">{}", "<a b=\"/>\">".repeat(200_000));
+    assert!(refusal(deep.as_bytes()).contains("more than 64 deep"));
 }
 
 #[test]
@@ -194,6 +231,11 @@ fn xml_that_is_cut_off_or_promises_too_much_is_refused() {
         ),
         ("NumberOfCells=\"3\"", "NumberOfCells=\"18446744073709551615\"", "for 18446744073709551615 times 1"),
         ("type=\"Float64\"", "type=\"Float16\"", "of the type `Float16`"),
+        (
+            "Name=\"offsets\" NumberOfComponents=\"1\"",
+            "Name=\"offsets\" NumberOfComponents=\"0\"",
+            "times 0 numbers in the array `offsets`",
+        ),
         ("4 8 10", "4 8 11", "has offsets of cells that do not rise to 10"),
         ("4 8 10", "8 4 10", "has offsets of cells that do not rise to 10"),
         ("1 2 3 4 0 1", "1 2 3 5 0 1", "has the cell 1 with the point 4294967295, and there are 5 points"),

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::arrays::{Array, At};
-use super::cells::{CellData, Cells};
+use super::cells::{CellData, Cells, points_in_rows};
 use crate::error::{Error, Result};
 use crate::read::values::{Encoding, Fault, NumberType, Values};
 
@@ -170,7 +170,7 @@ impl<'a> Reader<'a> {
 
     fn cells(&mut self, words: &[String]) -> Result<()> {
         let (first, second) = (self.count(words, 1)?, self.count(words, 2)?);
-        let (ends, corners) = match self.version > OFFSETS_FROM {
+        let (ends, corners) = match self.version >= OFFSETS_FROM {
             true => self.cells_by_offsets(first, second)?,
             false => self.cells_by_counts(first, second)?,
         };
@@ -277,8 +277,8 @@ impl<'a> Reader<'a> {
         let left = self.values.left() as u128;
         let least = match self.values.encoding {
             // A digit and a space, but for the last.
-            Encoding::Ascii => (2 * all).saturating_sub(1),
-            _ => all * number.bytes() as u128,
+            Encoding::Ascii => all.saturating_mul(2).saturating_sub(1),
+            _ => all.saturating_mul(number.bytes() as u128),
         };
         if least > left {
             let problem =
@@ -323,9 +323,10 @@ impl<'a> Reader<'a> {
             "unsigned_char" | "vtktypeuint8" => NumberType::U8,
             "short" | "vtktypeint16" => NumberType::I16,
             "unsigned_short" | "vtktypeuint16" => NumberType::U16,
-            "int" | "vtktypeint32" => NumberType::I32,
+            // Point numbers are written as whole numbers of 32 bits by this name.
+            "int" | "vtkidtype" | "vtktypeint32" => NumberType::I32,
             "unsigned_int" | "vtktypeuint32" => NumberType::U32,
-            "long" | "vtkidtype" | "vtktypeint64" => NumberType::I64,
+            "long" | "vtktypeint64" => NumberType::I64,
             "unsigned_long" | "vtktypeuint64" => NumberType::U64,
             "float" => NumberType::F32,
             "double" => NumberType::F64,
@@ -383,11 +384,14 @@ impl<'a> Reader<'a> {
             self.dims = Some(self.axes.each_ref().map(Vec::len));
         }
         let Some(dims) = self.dims else { return self.bad("has no DIMENSIONS") };
+        let asked = match points_in_rows(dims) {
+            Ok(asked) => asked,
+            Err(what) => return self.bad(format!("has the DIMENSIONS {dims:?}, {what}")),
+        };
         if dataset == Dataset::Rectilinear {
             let [x, y, z] = std::mem::take(&mut self.axes);
-            let all = dims.iter().try_fold(3usize, |n, side| n.checked_mul(*side));
             let mut points = Vec::new();
-            if all.is_none_or(|all| points.try_reserve_exact(all).is_err()) {
+            if points.try_reserve_exact(3 * asked).is_err() {
                 return self.bad(format!("has {dims:?} points, for which there is not enough memory"));
             }
             for c in &z {
@@ -398,12 +402,8 @@ impl<'a> Reader<'a> {
             self.data.points = points;
         }
         let points = self.data.points.len() / 3;
-        let asked = dims.iter().try_fold(1usize, |n, side| n.checked_mul(*side));
-        if asked != Some(points) {
+        if asked != points {
             return self.bad(format!("has the DIMENSIONS {dims:?} and {points} points"));
-        }
-        if dims.iter().any(|side| *side < 2) {
-            return self.bad(format!("has the DIMENSIONS {dims:?}, between which there are no cells with a volume"));
         }
         self.data.cells = Cells::Structured(dims);
         Ok(self.data)

@@ -8,12 +8,15 @@ use std::path::Path;
 use roxmltree::{Document, Node};
 
 use super::arrays::{Array, At};
-use super::cells::{CellData, Cells};
+use super::cells::{CellData, Cells, points_in_rows};
 use super::vtu_values::Blocks;
 use crate::error::{Error, Result};
 
 /// What stands in front of values behind the text.
 const APPENDED: &[u8] = b"<AppendedData";
+
+/// The most elements within each other; files of VTK have six.
+const DEEPEST: usize = 64;
 
 /// Whether a file begins like one of them.
 pub fn recognises(bytes: &[u8]) -> bool {
@@ -31,6 +34,9 @@ pub fn read(path: &Path, bytes: &[u8]) -> Result<CellData> {
         std::str::from_utf8(text).map_err(|e| bad(format!("is not UTF-8 text (byte {})", e.valid_up_to())))?.to_owned();
     if at.is_some() {
         text.push_str("</VTKFile>");
+    }
+    if nesting(text.as_bytes()) > DEEPEST {
+        return Err(bad(format!("has elements within each other, more than {DEEPEST} deep")));
     }
     let document = Document::parse(&text).map_err(|e| bad(format!("is not XML ({e})")))?;
     let root = document.root_element();
@@ -53,6 +59,35 @@ pub fn read(path: &Path, bytes: &[u8]) -> Result<CellData> {
             Err(Error::input(path.display(), problem, remedy))
         }
     }
+}
+
+/// How deep elements stand within each other: the parser goes down into each, for which there is no end of room.
+fn nesting(text: &[u8]) -> usize {
+    let (mut depth, mut deepest, mut at) = (0usize, 0, 0);
+    while let Some(begin) = text[at..].iter().position(|b| *b == b'<').map(|offset| at + offset) {
+        // To the end of the tag, which does not stand within quotes.
+        let (mut quote, mut end) = (None, begin + 1);
+        while let Some(byte) = text.get(end) {
+            match (quote, byte) {
+                (None, b'"' | b'\'') => quote = Some(*byte),
+                (Some(open), byte) if open == *byte => quote = None,
+                (None, b'>') => break,
+                _ => {}
+            }
+            end += 1;
+        }
+        let closed = text.get(end.wrapping_sub(1)) == Some(&b'/');
+        match text.get(begin + 1) {
+            Some(b'/') => depth = depth.saturating_sub(1),
+            Some(b'!' | b'?') | None => {}
+            Some(_) => {
+                deepest = deepest.max(depth + 1);
+                depth += usize::from(!closed);
+            }
+        }
+        at = (begin + 1).max(if quote.is_some() { begin + 1 } else { end.min(text.len()) });
+    }
+    deepest
 }
 
 fn elements<'a, 'd>(node: Node<'a, 'd>, name: &'static str) -> impl Iterator<Item = Node<'a, 'd>> {
@@ -82,8 +117,12 @@ impl Reader<'_> {
     fn values(&self, array: Node, count: usize) -> Result<(usize, Vec<f64>)> {
         let components =
             array.attribute("NumberOfComponents").map_or(Ok(1), |_| self.number(array, "NumberOfComponents"))?;
-        let values = self.blocks.values(array)?;
-        if components == 0 || Some(values.len()) != count.checked_mul(components) {
+        let Some(all) = count.checked_mul(components).filter(|_| components > 0) else {
+            let name = array.attribute("Name").unwrap_or("Points").escape_debug();
+            return Err((self.bad)(format!("has {count} times {components} numbers in the array `{name}`")));
+        };
+        let values = self.blocks.values(array, Some(all))?;
+        if values.len() != all {
             let name = array.attribute("Name").unwrap_or("Points").escape_debug();
             return Err((self.bad)(format!(
                 "has {} numbers in the array `{name}` for {count} times {components}",
@@ -91,6 +130,17 @@ impl Reader<'_> {
             )));
         }
         Ok((components, values))
+    }
+
+    /// The numbers of an array with one for each of so many things.
+    fn singles(&self, array: Node, count: usize) -> Result<Vec<f64>> {
+        match self.values(array, count)? {
+            (1, values) => Ok(values),
+            (components, _) => {
+                let name = array.attribute("Name").unwrap_or_default().escape_debug();
+                Err((self.bad)(format!("has {components} numbers each in the array `{name}`, where one stands")))
+            }
+        }
     }
 
     fn points(&self, piece: Node, count: usize) -> Result<Vec<f64>> {
@@ -136,12 +186,12 @@ impl Reader<'_> {
                 let found = arrays.iter().find(|array| array.attribute("Name") == Some(name));
                 found.copied().ok_or_else(|| (self.bad)(format!("has Cells without {name}")))
             };
-            let (_, offsets) = self.values(named("offsets")?, cells)?;
-            let (_, types) = self.values(named("types")?, cells)?;
-            let list = self.blocks.values(named("connectivity")?)?;
+            let offsets = self.singles(named("offsets")?, cells)?;
+            let types = self.singles(named("types")?, cells)?;
+            let list = self.blocks.values(named("connectivity")?, None)?;
             let offsets = offsets.into_iter().map(|offset| self.whole(offset)).collect::<Result<Vec<u32>>>()?;
             let rising = offsets.windows(2).all(|pair| pair[0] <= pair[1]);
-            if !rising || offsets.last().is_some_and(|last| *last as usize > list.len()) {
+            if !rising || offsets.last().map_or(0, |last| *last as usize) != list.len() {
                 return Err((self.bad)(format!("has offsets of cells that do not rise to {}", list.len())));
             }
             for corner in list {
@@ -153,6 +203,14 @@ impl Reader<'_> {
             kinds.extend(types.into_iter().map(|kind| kind as i64));
             self.add_values(&mut data, *piece, At::Points, points)?;
             self.add_values(&mut data, *piece, At::Cells, cells)?;
+            let all = |at: At| if at == At::Points { data.points.len() / 3 } else { ends.len() };
+            let short = data.arrays.iter().find(|array| array.values.len() != all(array.at) * array.components);
+            if let Some(array) = short {
+                return Err((self.bad)(format!(
+                    "has the array `{}` in some pieces and not in others",
+                    array.name.escape_debug()
+                )));
+            }
         }
         data.cells = Cells::Listed { kinds, ends, corners };
         Ok(data)
@@ -170,10 +228,7 @@ impl Reader<'_> {
         let Some([x, y, z]) = dims.and_then(|dims| <[usize; 3]>::try_from(dims).ok()) else {
             return Err((self.bad)(format!("has the Extent `{}`", extent.escape_debug())));
         };
-        let count = x.checked_mul(y).and_then(|n| n.checked_mul(z)).filter(|_| x > 1 && y > 1 && z > 1);
-        let Some(count) = count else {
-            return Err((self.bad)(format!("has the Extent {extent}, in which there are no cells with a volume")));
-        };
+        let count = points_in_rows([x, y, z]).map_err(|what| (self.bad)(format!("has the Extent {extent}, {what}")))?;
         let mut data = CellData { cells: Cells::Structured([x, y, z]), ..CellData::default() };
         self.add_values(&mut data, piece, At::Points, count)?;
         self.add_values(&mut data, piece, At::Cells, (x - 1) * (y - 1) * (z - 1))?;
@@ -183,7 +238,7 @@ impl Reader<'_> {
         }
         let axes = self.arrays(piece, "Coordinates");
         let [a, b, c] = axes[..] else { return Err((self.bad)(format!("has {} arrays of Coordinates", axes.len()))) };
-        let (a, b, c) = (self.values(a, x)?.1, self.values(b, y)?.1, self.values(c, z)?.1);
+        let (a, b, c) = (self.singles(a, x)?, self.singles(b, y)?, self.singles(c, z)?);
         if data.points.try_reserve_exact(3 * count).is_err() {
             return Err((self.bad)(format!("has {count} points, for which there is not enough memory")));
         }

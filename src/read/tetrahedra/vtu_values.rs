@@ -10,6 +10,10 @@ use roxmltree::Node;
 use crate::error::{Error, Result};
 use crate::read::packed::Packing;
 use crate::read::values::{Encoding, NumberType, Values};
+use crate::scene::tetrahedra::MOST_CELLS;
+
+/// Corners of all cells at the most: hexahedra have eight.
+const MOST_CORNERS: usize = 8 * MOST_CELLS;
 
 /// How the bytes of a file are to be taken.
 pub struct Blocks<'a> {
@@ -52,11 +56,11 @@ impl<'a> Blocks<'a> {
         Err(Error::input(self.path.display(), problem, "correct the file, or write it anew with VTK"))
     }
 
-    /// All numbers of an array.
+    /// All numbers of an array, which are so many, where that is known.
     ///
     /// # Errors
-    /// When its type or form is none, or its bytes are not what they say.
-    pub fn values(&self, array: Node) -> Result<Vec<f64>> {
+    /// When its type or form is none, its bytes are not what they say, or more than can be.
+    pub fn values(&self, array: Node, count: Option<usize>) -> Result<Vec<f64>> {
         let word = array.attribute("type").unwrap_or_default();
         let number = match word {
             "Int8" => NumberType::I8,
@@ -72,12 +76,14 @@ impl<'a> Blocks<'a> {
             _ => return self.bad(array, format!("of the type `{}`", word.escape_debug())),
         };
         let text = array.text().unwrap_or_default().trim();
+        let most = count.unwrap_or(MOST_CORNERS).saturating_mul(number.bytes());
         let bytes = match array.attribute("format").unwrap_or("ascii") {
             "ascii" => {
-                let numbers: Option<Vec<f64>> = text.split_ascii_whitespace().map(|word| word.parse().ok()).collect();
+                let words = text.split_ascii_whitespace().take(count.unwrap_or(MOST_CORNERS).saturating_add(1));
+                let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
                 return numbers.map_or_else(|| self.bad(array, "with a word that is not a number"), Ok);
             }
-            "binary" => self.encoded(array, text.as_bytes())?,
+            "binary" => self.encoded(array, text.as_bytes(), most)?,
             "appended" => {
                 let offset = array.attribute("offset").and_then(|word| word.parse::<usize>().ok());
                 let Some(((data, base64), offset)) = self.appended.zip(offset) else {
@@ -86,10 +92,13 @@ impl<'a> Blocks<'a> {
                 let Some(data) = data.get(offset..) else {
                     return self.bad(array, format!("from byte {offset} on behind the text, which has {}", data.len()));
                 };
-                if base64 { self.encoded(array, data)? } else { self.bare(array, data)? }
+                if base64 { self.encoded(array, data, most)? } else { self.bare(array, data, most)? }
             }
             other => return self.bad(array, format!("in the form `{}`", other.escape_debug())),
         };
+        if bytes.len() > most {
+            return self.bad(array, format!("of {} bytes, and at most {most} are asked for", bytes.len()));
+        }
         let mut values = Values::new(self.encoding, &bytes, 0);
         let count = bytes.len() / number.bytes();
         let mut numbers = Vec::new();
@@ -110,8 +119,8 @@ impl<'a> Blocks<'a> {
         sizes.map_or_else(|| self.bad(array, "that ends in its sizes"), Ok)
     }
 
-    /// Bytes behind their sizes.
-    fn bare(&self, array: Node, data: &[u8]) -> Result<Vec<u8>> {
+    /// Bytes behind their sizes, at most so many.
+    fn bare(&self, array: Node, data: &[u8], most: usize) -> Result<Vec<u8>> {
         let each = self.header.bytes();
         if !self.packed {
             let [size] = self.sizes(array, data, 1)?[..] else { return self.bad(array, "without a size") };
@@ -123,11 +132,11 @@ impl<'a> Blocks<'a> {
         let blocks = self.sizes(array, data, 1)?[0];
         let header = self.header_length(array, blocks, data.len())?;
         let sizes = self.sizes(array, data, header / each)?;
-        self.unpacked(array, &sizes, &data[header..])
+        self.unpacked(array, &sizes, &data[header..], most)
     }
 
     /// The same in base64: of packed bytes the sizes have an end of their own.
-    fn encoded(&self, array: Node, text: &[u8]) -> Result<Vec<u8>> {
+    fn encoded(&self, array: Node, text: &[u8], most: usize) -> Result<Vec<u8>> {
         let end = text.iter().position(|b| !(b.is_ascii_alphanumeric() || b"+/=".contains(b))).unwrap_or(text.len());
         let text = &text[..end];
         let each = self.header.bytes();
@@ -135,7 +144,7 @@ impl<'a> Blocks<'a> {
             Ok(bytes) => Ok(bytes),
             Err(e) => self.bad(array, format!("that is not base64 ({e})")),
         };
-        let in_text = |bytes: usize| bytes.div_ceil(3) * 4;
+        let in_text = |bytes: usize| bytes.div_ceil(3).saturating_mul(4);
         let Some(first) = text.get(..in_text(each)) else { return self.bad(array, "that ends in its sizes") };
         // Behind the size may follow data.
         let first = self.sizes(array, &lenient(first), 1)?[0];
@@ -143,7 +152,7 @@ impl<'a> Blocks<'a> {
             let Some(text) = each.checked_add(first).and_then(|bytes| text.get(..in_text(bytes))) else {
                 return self.bad(array, format!("of {first} bytes, where there are {} in base64", text.len()));
             };
-            return self.bare(array, &decoded(text)?);
+            return self.bare(array, &decoded(text)?, most);
         }
         let header = self.header_length(array, first, text.len())?;
         let Some((sizes, data)) = text.split_at_checked(in_text(header)) else {
@@ -154,7 +163,7 @@ impl<'a> Blocks<'a> {
         let Some(data) = all.and_then(|all| data.get(..in_text(all))) else {
             return self.bad(array, "whose packed parts are longer than what is left");
         };
-        self.unpacked(array, &sizes, &decoded(data)?)
+        self.unpacked(array, &sizes, &decoded(data)?, most)
     }
 
     /// Bytes of the sizes in front of so many parts.
@@ -170,7 +179,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Unpacks parts behind their sizes: how many, how long each is, how long the last one is where it is shorter, then packed lengths.
-    fn unpacked(&self, array: Node, sizes: &[usize], mut data: &[u8]) -> Result<Vec<u8>> {
+    fn unpacked(&self, array: Node, sizes: &[usize], mut data: &[u8], most: usize) -> Result<Vec<u8>> {
         let [_, whole, last, packed @ ..] = sizes else { return self.bad(array, "without sizes") };
         let mut bytes = Vec::new();
         for (i, length) in packed.iter().enumerate() {
@@ -182,6 +191,9 @@ impl<'a> Blocks<'a> {
                 return self.bad(array, format!("whose part {i} of {length} bytes promises {asked}"));
             }
             let before = bytes.len();
+            if before.saturating_add(asked) > most {
+                return self.bad(array, format!("that unpacks to more than the {most} bytes that are asked for"));
+            }
             let unpacked = flate2::read::ZlibDecoder::new(part).take(asked as u64 + 1).read_to_end(&mut bytes);
             if unpacked.is_err() || bytes.len() - before != asked {
                 return self.bad(array, format!("whose part {i} does not unpack to {asked} bytes"));

@@ -78,22 +78,19 @@ pub fn orient(name: &str, points: &[[f32; 3]], cells: &mut [[u32; 4]], across: &
             (volume != 0.0).then_some(volume < 0.0)
         })
         .collect();
-    // Cells that have a neighbour which is known, until there are none.
-    let mut waiting: Vec<u32> = (0..cells.len() as u32).filter(|cell| turned[*cell as usize].is_none()).collect();
-    while !waiting.is_empty() {
-        let before = waiting.len();
-        waiting.retain(|cell| {
-            let sides = 0..4;
-            let known = sides.into_iter().find_map(|side| {
-                let beside = across[*cell as usize][side];
-                let of_neighbour = if beside == NOTHING { None } else { turned[beside as usize / 4] }?;
-                Some(of_neighbour != alike(cells, 4 * cell + side as u32, beside))
-            });
-            turned[*cell as usize] = known;
-            known.is_none()
-        });
-        if waiting.len() == before {
-            break;
+    // Flat cells beside those that are known, and those beside them.
+    let flat = |turned: &[Option<bool>], side: u32| side != NOTHING && turned[side as usize / 4].is_none();
+    let beside_flat =
+        |cell: &u32| turned[*cell as usize].is_some() && across[*cell as usize].iter().any(|side| flat(&turned, *side));
+    let mut known: Vec<u32> = (0..cells.len() as u32).filter(beside_flat).collect();
+    while let Some(cell) = known.pop() {
+        let Some(of_cell) = turned[cell as usize] else { continue };
+        for (side, beside) in (0u32..).zip(across[cell as usize]).collect::<Vec<_>>() {
+            if !flat(&turned, beside) {
+                continue;
+            }
+            turned[beside as usize / 4] = Some(of_cell != alike(cells, 4 * cell + side, beside));
+            known.push(beside / 4);
         }
     }
     let is_turned = |cell: u32| turned[cell as usize] == Some(true);

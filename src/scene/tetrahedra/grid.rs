@@ -74,18 +74,8 @@ impl Grid {
 
     /// Lets cells share points that are one.
     fn merge(&mut self) {
-        let mut first: HashMap<[u64; 4], u32> = HashMap::with_capacity(self.points.len());
-        let mut merged = 0;
-        let one: Vec<u32> = (0u32..)
-            .zip(self.points.iter().zip(&self.values))
-            .map(|(number, ([x, y, z], value))| {
-                // The two zeros are one place.
-                let key = [*x + 0.0, *y + 0.0, *z + 0.0, *value].map(f64::to_bits);
-                let one = *first.entry(key).or_insert(number);
-                merged += usize::from(one != number);
-                one
-            })
-            .collect();
+        let one = one_of_each(&self.points, Some(&self.values));
+        let merged = (0u32..).zip(&one).filter(|(number, one)| number != *one).count();
         if merged > 0 {
             self.cells.iter_mut().flatten().for_each(|corner| *corner = one[*corner as usize]);
             self.notes
@@ -113,9 +103,15 @@ impl Grid {
         self.values.retain(|_| used.next() == Some(&true));
     }
 
-    /// Leaves out cells that have a corner without a value, whose number is given.
+    /// Leaves out cells that have a corner without a value, as its number says, with a note.
     pub fn without(mut self, is_missing: impl Fn(usize) -> bool) -> Self {
+        let before = self.cells.len();
         self.cells.retain(|cell| !cell.iter().any(|corner| is_missing(*corner as usize)));
+        let left_out = before - self.cells.len();
+        if left_out > 0 {
+            self.notes
+                .push(format!("{left_out} cells with a point that has no finite value, or no data, were left out"));
+        }
         self
     }
 
@@ -152,6 +148,18 @@ impl Grid {
         }
         Err(Error::input(&self.name, "has no volume in its cells", "give cells whose corners do not lie in one plane"))
     }
+}
+
+/// For each point the first that lies at the same place, of the same value where values are given.
+pub fn one_of_each(points: &[[f64; 3]], values: Option<&Vec<f64>>) -> Vec<u32> {
+    let mut first: HashMap<[u64; 4], u32> = HashMap::with_capacity(points.len());
+    let one = |(number, [x, y, z]): (usize, &[f64; 3])| {
+        let value = values.and_then(|values| values.get(number)).copied().unwrap_or_default();
+        // The two zeros are one place.
+        let key = [*x + 0.0, *y + 0.0, *z + 0.0, value].map(f64::to_bits);
+        *first.entry(key).or_insert(number as u32)
+    };
+    points.iter().enumerate().map(one).collect()
 }
 
 /// Longest sides that arithmetic survives.

@@ -11,7 +11,7 @@ mod walk;
 
 pub use boundary::CellsView;
 pub use connect::{FACES, NOTHING};
-pub use grid::Grid;
+pub use grid::{Grid, one_of_each};
 pub use walk::{CellWay, Entry, FacePoint};
 
 use glam::DVec3;

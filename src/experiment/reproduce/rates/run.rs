@@ -97,7 +97,7 @@ impl KeptVolumes {
         let place = match self.0.iter().position(|(of, _)| *of == asked) {
             Some(place) => place,
             None => {
-                self.0.push((asked, read::scene::content(&settings.volume)?));
+                self.0.push((asked, read::content::content(&settings.volume)?));
                 self.0.len() - 1
             }
         };
