@@ -41,7 +41,7 @@ pub enum Traversal {
     Slices(Stack),
     /// Nothing: nested iso-surfaces are drawn as polygons [Heidrich95 §2].
     Shells,
-    /// The cells of a mesh, from each to the next [Weiler03].
+    /// The cells of a mesh, from each to the next (Weiler03).
     Cells(CellWalk),
 }
 

@@ -1,4 +1,4 @@
-//! Meshes of tetrahedra with a value at each vertex, linear within each [Weiler03].
+//! Meshes of tetrahedra with a value at each vertex, linear within each (Weiler03).
 
 mod boundary;
 pub mod builtin;
