@@ -1,10 +1,10 @@
 // What the transfer function makes of a way on which x goes evenly from one value to another: the emission-absorption integral.
 // Twin: `Absorber::ramp` in src/truth/exact.rs. Needs transfer.glsl, opacity.glsl and logarithm.glsl.
 //
-// A way is cut where the transfer function bends, and where the transparency would change by more than a fifth of its mean to each side
-// or the optical depth be above 1: most ways through cells are cut nowhere. Over a part opacities are linear, so that its optical depth has
-// a closed form, of which a few terms of a series are exact to f32; what a change of colour brings is the integral of a smooth function, by
-// the rule of Gauss with three points.
+// A way is cut where the transfer function bends, and where the transparency would change by more than a fifth of its mean to each side,
+// the optical depth be above 1, or the extinction change by more than EVEN_DEPTH: most ways through cells are cut nowhere. Over a part
+// opacities are linear, so that its optical depth has a closed form, of which a few terms of a series are exact to f32; what a change of
+// colour brings has a series too, in the depth and of the first order in the change of the extinction.
 
 // Red, green and blue are the same everywhere.
 layout(constant_id = 40) const bool ONE_COLOR = false;
@@ -17,6 +17,18 @@ const float BLACK = 1.0e-8;
 
 // Parts of a way at the most: transparencies down to the least number of f32 are a hundredth each of the one before at worst.
 const int MOST_PARTS = 1024;
+
+// The most that the extinction of a part changes by, in depths: what is left out of the series is a part of some 4e-6 of the change of
+// colour then.
+const float EVEN_DEPTH = 0.03;
+
+// The integral of exp(-tau(t)) - exp(-tau(1)) over a part of the optical depth tau(1) = `depth`, about 1 at the most, where the extinction goes
+// evenly by `change` in all, in depths: series in the depth, and of the first order in the change.
+float even_rise(float depth, float change) {
+    float even = depth * (0.5 + depth * (-1.0 / 3.0 + depth * (0.125 + depth * (-1.0 / 30.0 + depth * (1.0 / 144.0 + depth * (-1.0 / 840.0 + depth / 5760.0))))));
+    float first = 1.0 / 6.0 + depth * (-1.0 / 12.0 + depth * (1.0 / 40.0 + depth * (-1.0 / 180.0 + depth * (1.0 / 1008.0 - depth / 6720.0))));
+    return even + 0.5 * change * first;
+}
 
 // The mean of -ln(1 - opacity) over a part where the opacity goes evenly from `a` to `b`; `clear` is 1 - opacity at both ends.
 float mean_extinction(float a, float b, vec2 clear) {
@@ -42,17 +54,11 @@ vec4 over_part(vec4 first, vec4 last, vec2 clear, float lengths) {
     float depth = lengths * mean_extinction(first.a, last.a, clear);
     vec4 light = vec4(first.rgb, 1.0) * opacity_of(depth);
     if (!ONE_COLOR) {
-        // The integral of exp(-tau(t)) - exp(-tau(1)): what the change of colour adds, in parts of the change.
-        const vec3 PLACES = vec3(0.1127016654, 0.5, 0.8872983346);
-        const vec3 WEIGHTS = vec3(0.2777777778, 0.4444444444, 0.2777777778);
-        float rise = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            float here = mix(first.a, last.a, PLACES[i]);
-            float clear_here = mix(clear.x, clear.y, PLACES[i]);
-            float to_here = PLACES[i] * lengths * mean_extinction(first.a, here, vec2(clear.x, clear_here));
-            rise += WEIGHTS[i] * opacity_of(depth - to_here) * exp(-to_here);
-        }
-        light.rgb += (last.rgb - first.rgb) * rise;
+        // What the extinction changes by: ln of the ratio of transparencies.
+        float ratio = (first.a - last.a) / max(clear.x + clear.y, 1.0e-37);
+        float change = -2.0 * ratio * (1.0 + ratio * ratio / 3.0);
+        // Behind a part that nothing passes there is nothing to add.
+        light.rgb += (last.rgb - first.rgb) * (depth <= 2.0 ? even_rise(depth, change * lengths) : 0.0);
     }
     return light;
 }
@@ -102,9 +108,12 @@ Part part_from(float at, float back, float left_over) {
     float share = way > 0.0 ? min(step / way, 1.0) : 1.0;
     bool to_end = step == abs(end - at);
     if (!ONE_COLOR) {
-        float extinction = first.a <= 0.5 ? -log_1_plus(-first.a) : -logarithm(max(clear, 1.0e-37));
-        extinction += 1.3 * slope * step / max(clear, 1.0e-6);
-        float longest = 1.0 / max(extinction * left_over, 1.0e-30);
+        // No less than -ln(clear), which is four times that of its fourth root r, and that no more than (1 - r) / sqrt(r).
+        float root = sqrt(sqrt(max(clear, 1.0e-12)));
+        float steep = slope * step / max(clear, 1.0e-6);
+        float extinction = 4.0 * (1.0 - root) * inversesqrt(root) + 1.3 * steep;
+        float change = max(steep * left_over, 1.0e-30);
+        float longest = min(1.0 / max(extinction * left_over, 1.0e-30), inversesqrt(change / (EVEN_DEPTH * share)));
         to_end = to_end && share <= longest;
         share = min(share, longest);
     }
