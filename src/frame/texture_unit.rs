@@ -11,6 +11,7 @@ use super::upload;
 use crate::error::Result;
 use crate::glsl;
 use crate::math::interpolate::trilinear;
+use crate::math::random::Random;
 use crate::resource::texels::texel_format;
 use crate::scene::TextureUnit;
 use crate::scene::texture::{FilterError, TexelFormat};
@@ -137,26 +138,4 @@ fn interpolated(
 /// What measures.
 pub fn shader() -> glsl::Shader {
     glsl::Shader::new("texture_unit.comp", [])
-}
-
-/// Numbers that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, end: u32) -> u32 {
-        (((self.next() >> 32) * u64::from(end)) >> 32) as u32
-    }
-
-    /// From 0 to 1, in steps that f32 has.
-    fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1u64 << 24) as f32
-    }
 }

@@ -6,5 +6,6 @@ pub mod edges;
 pub mod interpolate;
 pub mod opacity;
 pub mod polyhedron;
+pub mod random;
 pub mod ray;
 pub mod triangle;
