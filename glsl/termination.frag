@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE], [SLICES], [PLANES], [ORTHOGRAPHIC]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE], [SLICES], [PLANES], [ORTHOGRAPHIC], [ADAPTIVE]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -22,9 +22,18 @@
 #endif
 #include "shared/projection.glsl"
 
+#ifdef ADAPTIVE
+// How far the ray has come, in steps of the shortest length.
+layout(set = 0, binding = 72) uniform sampler2D reached;
+#endif
+
 void main() {
     Ray ray = load_ray();
+#ifdef ADAPTIVE
+    bool gone = texelFetch(reached, ivec2(gl_FragCoord.xy), 0).r >= ray.steps;
+#else
     bool gone = this_step.pass * SAMPLES_PER_PASS >= ray.samples;
+#endif
 #ifdef ENDLESS
     bool saturated = false;
 #else

@@ -1,6 +1,8 @@
 // The whole ray in one loop [Stegmaier05 §3, §5]: samples are taken until the ray leaves the volume or needs no more of them.
 // Twin: src/twin/single_pass.rs. It includes all it needs, which two shaders would have to list alike.
 //
+// ADAPTIVE: steps have lengths of their own (Weiler03 "Adaptive Sampling").
+//
 // TRANSPARENT (with SURFACE; crossings.glsl): surfaces let something through, and the ray goes on behind them.
 // LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing.
 //
@@ -65,7 +67,13 @@
 #include "shared/block.glsl"
 #include "shared/visible_block.glsl"
 #endif
+#ifdef ADAPTIVE
+#include "shared/logarithm.glsl"
+#include "shared/cell_integral.glsl"
+#include "shared/adaptive.glsl"
+#else
 #include "shared/shade.glsl"
+#endif
 
 // What a ray holds before its first sample.
 vec4 begin_ray(Ray ray) {
@@ -125,6 +133,18 @@ bool take_step(Ray ray, uint i, inout vec4 held) {
 }
 #endif
 
+#ifdef ADAPTIVE
+// Steps of the ray, joined with what it holds already.
+vec4 gather(Ray ray, vec4 held) {
+    AdaptiveWay way = begin_way(ray, 0u);
+    bool done = is_done(held);
+    while (!done && goes_on(ray, way)) {
+        held = joined(held, adaptive_part(ray, way));
+        done = is_done(held);
+    }
+    return held;
+}
+#else
 // Samples of the ray from its first one on, joined with what it holds already; the ray ends where it has bent last.
 vec4 gather(inout Ray ray, vec4 held) {
     uint i = first_sample(ray);
@@ -187,6 +207,7 @@ vec4 gather(inout Ray ray, vec4 held) {
     }
     return held;
 }
+#endif
 
 // The picture of the ray, with what it holds already.
 vec4 cast_ray(Ray ray, vec4 held) {

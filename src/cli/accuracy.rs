@@ -24,13 +24,14 @@ use crate::scene::settings::MethodName;
 /// Of an iso-surface (--iso) it measures where rays meet it, its normals and its colours, each by itself, by every way to find
 /// places and to take gradients, against the root of the interpolant and its gradient there. Shells (--shells max or sum) are drawn in
 /// ever larger numbers, beside rays with ever shorter steps. Ways through the cells of a mesh are integrated exactly, and looked up in
-/// tables of ever more nodes.
+/// tables of ever more nodes. Adaptive steps (--tolerances) are made for ever smaller errors.
 /// Writes accuracy.json, .csv, .html and two plots as SVG. Unless a scene file or an option says otherwise, pictures have
 /// 160x160 pixels and rays end at an opacity of 0.999.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   depthleap accuracy builtin:gaussian:64 --tf linear -o out
   depthleap accuracy fuel.nrrd --method rc,nn-omni --steps 2,1,0.5,0.25 -o out
+  depthleap accuracy fuel.nrrd --method rc,rc-ert,single-pass --tolerances 0.016,0.0039,0.001 -o out
   depthleap accuracy builtin:gaussian:64 --iso 0.4 -o out
   depthleap accuracy neghip.nrrd --shells sum --method shells,nn-omni -o out
   depthleap accuracy bluntfin_tet.vtk --array density -o out
@@ -54,6 +55,9 @@ pub struct AccuracyCommand {
     /// Nodes along a side of the tables of ways through the cells of a mesh, with commas between
     #[arg(long, value_name = "N,...", value_delimiter = ',', default_values = TABLE_SIZES)]
     table_sizes: Vec<u32>,
+    /// Errors that adaptive steps are made for, of methods that take such steps, with commas between; without, none are taken
+    #[arg(long, value_name = "ERROR,...", value_delimiter = ',')]
+    tolerances: Vec<f64>,
     /// Every way of sampling, by every method
     #[arg(long)]
     full: bool,
@@ -105,6 +109,7 @@ impl AccuracyCommand {
             steps: self.steps.clone(),
             shell_counts: self.shell_counts.clone(),
             table_sizes: self.table_sizes.clone(),
+            tolerances: self.tolerances.clone(),
             full: self.full,
             repeats: self.repeats,
         };

@@ -21,10 +21,15 @@ pub fn constants(context: &Context) -> Vec<Constant> {
         return Vec::new();
     }
     let mut constants: Vec<Constant> = OF_CELLS.into_iter().flat_map(|feature| (feature.constants)(context)).collect();
+    constants.push(one_color(context));
+    constants
+}
+
+/// Of `cell_integral.glsl`: whether the transfer function has one colour.
+pub fn one_color(context: &Context) -> Constant {
     let knots = context.scene.transfer.knots();
     let one_color = context.plans() && knots.iter().all(|knot| knot.color == knots[0].color);
-    constants.push(("ONE_COLOR", u32::from(one_color)));
-    constants
+    ("ONE_COLOR", u32::from(one_color))
 }
 
 /// What it reads.

@@ -1,5 +1,6 @@
 //! Deciding which rays go on: intermediate passes, the depth buffer, and how marks come there.
 
+use super::adaptive::ADAPTIVE;
 use super::block_ranges::BLOCK_RANGES;
 use super::distances::DISTANCES;
 use super::early_ends::EARLY_ENDS;
@@ -34,7 +35,8 @@ fn decisions(context: &Context) -> Result<(), Why> {
     if cut(context) {
         return Ok(());
     }
-    if !context.has(&EARLY_ENDS) && !skips(context) {
+    // Adaptive rays leave the volume after more passes or fewer.
+    if !context.has(&EARLY_ENDS) && !skips(context) && !context.has(&ADAPTIVE) {
         let never_ends = never_ends(context);
         return Err(if method.looks_ahead() { format!("{never_ends}, and {DENSE}") } else { never_ends }.into());
     }

@@ -62,7 +62,9 @@ fn comes_above(scene: &Scene, longest: &Gathered) -> bool {
     // One more than there should be, whatever rounding does to the number of samples.
     let samples = longest.samples + 1.0;
     let clear = match sampling.alpha {
-        Alpha::Exponential => (longest.steps * sampling.step / scene.transfer.reference * (-greatest).ln_1p()).exp(),
+        Alpha::Exponential => {
+            (longest.steps * scene.settings.step() / scene.transfer.reference * (-greatest).ln_1p()).exp()
+        }
         Alpha::Paper => (samples * (-greatest).ln_1p()).exp(),
     };
     let rounding = longest.blends * f64::from(blend_rounding(scene.settings.image.accumulate)) + samples * ROUNDING;

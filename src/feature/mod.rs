@@ -3,6 +3,7 @@
 //! To add one: a file here with its row, a line in [`FEATURES`] (the order of the lines of plans), its code in the shaders at
 //! its hook with its f64 twin, and scenes that need it and do not need it in `tests/matrix/scenes.rs`, which a test asks for.
 
+pub mod adaptive;
 mod apart;
 pub mod backdrop;
 mod block_ranges;
@@ -35,6 +36,7 @@ mod start;
 pub mod surface;
 mod transfer_function;
 
+pub use adaptive::ADAPTIVE;
 pub use apart::APART;
 pub use backdrop::{BACKDROP, BACKDROP_PICTURE};
 pub use block_ranges::BLOCK_RANGES;
@@ -72,7 +74,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::{FEW_PIECES, TRANSFER_FUNCTION};
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 43] = [
+pub const FEATURES: [&Feature; 44] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -85,6 +87,7 @@ pub const FEATURES: [&Feature; 43] = [
     &HOLES,
     &OPACITY_CORRECTION,
     &PREINTEGRATION,
+    &ADAPTIVE,
     &LAST_SAMPLE,
     &SHADER_INTERPOLATION,
     &INTERPOLATION,

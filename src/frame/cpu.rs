@@ -104,6 +104,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let height = plan.view.size[1];
     let (table, gradients, cell_table) =
         (structures.table(scene), structures.gradients(scene), structures.cells(scene));
+    let importance = structures.importance(scene);
     let projection = projection::of(&scene.settings);
     let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
     let surface_values: Vec<[f64; 2]> =
@@ -117,6 +118,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
         cells: plan.view.cells.as_deref(),
         medium: Some(&medium),
         cell_table: cell_table.as_deref(),
+        importance: importance.as_deref(),
         passes: plan.passes,
         distance: plan.distance.and_then(|lookup| structures.distance(&lookup)).map(|d| &d.value),
         blocks: structures.blocks.as_ref().map(|b| &b.value),

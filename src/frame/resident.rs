@@ -110,11 +110,12 @@ impl Resident {
         asked.then(|| self.table.get_or_insert_with(|| Arc::new(PreintegratedTable::new(scene))).clone())
     }
 
-    /// Forgets the table of pre-integrated classification: the next plan's scene may have other steps.
+    /// Forgets the tables of classification and the importance volume: the next plan's scene may have other steps.
     pub fn forget_table(&mut self) {
         self.table = None;
         self.kept.retain(|kept| {
-            ![resource::PREINTEGRATED, resource::AXIS, resource::TET_TABLE].contains(&kept.asset.resource)
+            ![resource::PREINTEGRATED, resource::AXIS, resource::TET_TABLE, resource::IMPORTANCE]
+                .contains(&kept.asset.resource)
         });
     }
 

@@ -15,6 +15,7 @@ use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
 use crate::structure::{self, Lookup, blocks::Blocks};
 use crate::truth::cell_table::CellTable;
+use crate::truth::importance::Importance;
 use crate::truth::preintegrated::PreintegratedTable;
 
 /// A structure and what it cost.
@@ -35,6 +36,8 @@ pub struct Structures {
     pub gradients: Option<Arc<GradientTexels>>,
     /// Of pre-integrated classification, for one transfer function and one step.
     pub table: Option<Arc<PreintegratedTable>>,
+    /// How long adaptive steps may be.
+    pub importance: Option<Arc<Importance>>,
     /// Of ways through cells, for one transfer function.
     pub cells: Option<Arc<CellTable>>,
 }
@@ -46,6 +49,7 @@ impl Structures {
         self.table = self.table(scene);
         self.gradients = self.gradients(scene);
         self.cells = self.cells(scene);
+        self.importance = self.importance(scene);
         if let Some(lookup) = plan.distance.filter(|lookup| self.distance(lookup).is_none()) {
             let texels = Texels::of(scene);
             let build = || structure::build(&scene.field, &texels.values, &texels.shown(scene), &lookup);
@@ -66,6 +70,12 @@ impl Structures {
     /// The table of ways through cells, where the scene asks for one: the one that is here, or a new one.
     pub fn cells(&self, scene: &Scene) -> Option<Arc<CellTable>> {
         self.cells.clone().or_else(|| CellTable::of(scene).map(Arc::new)).filter(|_| scene.has_cell_table())
+    }
+
+    /// The importance volume, where the scene asks for one: the one that is here, or a new one.
+    pub fn importance(&self, scene: &Scene) -> Option<Arc<Importance>> {
+        let asked = scene.settings.adaptive.importance;
+        self.importance.clone().filter(|_| asked).or_else(|| Importance::of(scene).map(Arc::new))
     }
 
     /// The gradients, where the scene reads them from a texture: those that are here, or new ones.

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
-use crate::feature::{BACKDROP, cells, clip_volume, light_paths, refraction, surface};
+use crate::feature::{BACKDROP, adaptive, cells, clip_volume, light_paths, refraction, surface};
 use crate::geometry::BOX_FRONT;
 use crate::part::Step;
 use crate::part::form::Form;
@@ -48,8 +48,15 @@ pub const RAY_CASTER: Method = Method {
     steps: |context, steps| cast(context, steps, unswitched),
 };
 
-/// Takes every scene but those that ask for what one loop alone can do.
+/// Takes every scene but those that ask for adaptive steps, or for what one loop alone can do.
 pub fn takes_in_passes(scene: &Scene) -> Result<()> {
+    adaptive::refuse(scene)?;
+    takes_any_steps(scene)
+}
+
+/// Takes every scene but those that ask for what one loop alone can do, or cannot be with adaptive steps.
+pub fn takes_any_steps(scene: &Scene) -> Result<()> {
+    adaptive::check(scene)?;
     cells::takes_voxels(scene)?;
     surface::check_opaque(scene)?;
     light_paths::check_passes(scene)?;

@@ -2,6 +2,7 @@
 //! `+compute`: the same loop in a compute shader.
 
 use super::rows::{RAY_CASTER, cast};
+use crate::feature::adaptive;
 use crate::feature::cells::takes_voxels;
 use crate::part::rows::{Ahead, Context, Method, Traversal};
 use crate::part::steps::Steps;
@@ -13,7 +14,10 @@ const fn row(name: &'static str, about: &'static str, ahead: Ahead, skips_of: Op
         name,
         about,
         source: "Stegmaier05 §5",
-        takes: takes_voxels,
+        takes: |scene| {
+            adaptive::refuse(scene)?;
+            takes_voxels(scene)
+        },
         papers: None,
         forms: Vec::new,
         ahead,
@@ -35,8 +39,13 @@ const fn computed(of: Method, name: &'static str, about: &'static str, skips_of:
     }
 }
 
-pub const SINGLE_PASS: Method =
-    row("single-pass", "Ray casting by one shader that holds the whole ray", Ahead::Nothing, None);
+pub const SINGLE_PASS: Method = Method {
+    takes: |scene| {
+        takes_voxels(scene)?;
+        adaptive::check(scene)
+    },
+    ..row("single-pass", "Ray casting by one shader that holds the whole ray", Ahead::Nothing, None)
+};
 
 pub const SINGLE_PASS_BLOCK: Method = row(
     "single-pass-block",

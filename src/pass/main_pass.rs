@@ -2,7 +2,7 @@
 
 use super::{constants, cull};
 use crate::feature::surface::gathered;
-use crate::feature::{self, APART};
+use crate::feature::{self, ADAPTIVE, APART};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::{Access, Usage};
 use crate::part::form::Form;
@@ -15,6 +15,11 @@ use crate::twin;
 /// Main pass `pass`, culled by `culled` = (how, greatest stored depth), or run for every fragment.
 pub fn main_pass(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
     let (mut draw, mut accesses) = sampled(context, !context.has(&APART));
+    if context.has(&ADAPTIVE) {
+        // No ray has come anywhere before the first of them.
+        accesses.push(if pass > 0 { Usage::ColorInput } else { Usage::Color }.of(resource::REACHED));
+        draw.define((pass > 0).then_some("GOES_ON"));
+    }
     if let Some((how, bound)) = culled {
         cull::cull_by_stored(&mut draw, &mut accesses, how, bound);
     }

@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{constants, cull, rays};
 use crate::feature::surface::gathered;
-use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
+use crate::feature::{self, ADAPTIVE, APART, EARLY_ENDS, ISO_SURFACE};
 use crate::geometry::BOX_FRONT;
 use crate::part::access::Usage;
 use crate::part::form::Form;
@@ -19,12 +19,14 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     let mut draw = Draw::plain(&BOX_FRONT, "termination.frag", twin::termination::termination);
     rays::find(context, &mut draw, &mut accesses);
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
+    accesses.extend(context.has(&ADAPTIVE).then_some(Usage::Sampled.of(resource::REACHED)));
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));
     draw.define(EARLY_ENDS.define(context));
+    draw.define(ADAPTIVE.define(context));
     draw.define(APART.define(context));
     draw.define(ISO_SURFACE.define(context));
     draw.specialize((APART.constants)(context));

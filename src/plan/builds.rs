@@ -116,14 +116,14 @@ impl Builds {
         let (maker, steps) = match (&resource.of.origin, recipe(resource)) {
             (Origin::Drawn | Origin::Passing, _) | (Origin::Built, None) => return,
             (Origin::Host(_), _) => (Maker::Upload, vec![build::host(resource, Group::Upload)]),
-            (Origin::Built, Some(recipe)) if on_host && recipe.host.is_some() => {
-                (Maker::Host, vec![build::host(resource, Group::Structure)])
-            }
-            (Origin::Built, Some(recipe)) => {
-                let steps = (recipe.steps)(facts, resource.index);
-                reads(&steps).into_iter().for_each(|read| self.need(facts, on_host, read));
-                (Maker::Compute, steps)
-            }
+            (Origin::Built, Some(recipe)) => match recipe.steps.filter(|_| !on_host || recipe.host.is_none()) {
+                None => (Maker::Host, vec![build::host(resource, Group::Structure)]),
+                Some(steps) => {
+                    let steps = steps(facts, resource.index);
+                    reads(&steps).into_iter().for_each(|read| self.need(facts, on_host, read));
+                    (Maker::Compute, steps)
+                }
+            },
         };
         let first = self.steps.len();
         self.steps.extend(steps);

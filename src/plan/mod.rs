@@ -318,6 +318,6 @@ fn left_out(context: &Context) -> Vec<LeftOut> {
 
 /// Samples on the diagonal of the volume, the longest ray of any view.
 fn whole_diagonal(scene: &Scene) -> u32 {
-    let step = scene.settings.sampling.step * scene.field.finest();
+    let step = scene.settings.step() * scene.field.finest();
     (scene.field.extent().length() / step).ceil() as u32
 }

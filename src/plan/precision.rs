@@ -89,7 +89,7 @@ fn value_error(scene: &Scene, values: &OfValues, error: f64, gathered: &Gathered
     if error == 0.0 {
         return 0.0;
     }
-    let lengths = gathered.steps * scene.settings.sampling.step / scene.transfer.reference;
+    let lengths = gathered.steps * scene.settings.step() / scene.transfer.reference;
     let [low, high] = scene.field.extremes().map(|x| f64::from(x).abs());
     (values.magnification)(lengths) * (error + low.max(high) * rounding(scene, gathered))
 }
@@ -112,7 +112,7 @@ fn corrected(scene: &Scene, change: f64, gathered: &Gathered) -> f64 {
     if sampling.alpha == Alpha::Paper || change == 0.0 {
         return change.min(1.0);
     }
-    let exponent = sampling.step / scene.transfer.reference;
+    let exponent = scene.settings.step() / scene.transfer.reference;
     let least_clear = 1.0 - scene.transfer.knots().iter().map(|k| k.opacity).fold(0.0, f64::max);
     // The steepest rise of 1 - (1 - a)^t over a, for every exponent t up to that of a whole step.
     let shorter = change * exponent.max(1.0) / least_clear;
@@ -121,6 +121,6 @@ fn corrected(scene: &Scene, change: f64, gathered: &Gathered) -> f64 {
         exponent => change.powf(exponent).min(exponent * least_clear.powf(exponent - 1.0) * change),
     };
     let shorter_than_steps = gathered.samples > gathered.steps;
-    let any_length = sampling.last == Last::Partial || sampling.preintegrates() || shorter_than_steps;
+    let any_length = scene.last() == Last::Partial || sampling.preintegrates() || shorter_than_steps;
     (if any_length { whole.max(shorter) } else { whole }).min(1.0)
 }

@@ -281,8 +281,7 @@ fn out_of_format(scene: &Scene, plan: &Plan) -> Option<String> {
         Accumulate::Rgba16f => ("rgba16f", [-LARGEST_HALF, LARGEST_HALF]),
         Accumulate::Rgba32f => return None,
     };
-    let sampling = &scene.settings.sampling;
-    let lengths = f64::from(plan.view.longest_samples) * sampling.step / scene.transfer.reference;
+    let lengths = f64::from(plan.view.longest_samples) * scene.settings.step() / scene.transfer.reference;
     let times = (values.magnification)(lengths);
     let [low, high] = scene.field.extremes().map(|x| f64::from(x) * times);
     (low < least || high > greatest).then(|| {

@@ -8,6 +8,7 @@ mod clip_volume;
 mod environment;
 mod frame;
 mod gradients;
+mod importance;
 mod layers;
 mod look;
 mod refraction;
@@ -24,6 +25,7 @@ pub use frame::{
     SLICE_NUMBERS, SLICES, STORED,
 };
 pub use gradients::{GRADIENT_TEXELS, GRADIENTS, gradient_bytes, gradients};
+pub use importance::{IMPORTANCE, REACHED};
 pub use layers::{
     CLIP_WINDING, LAYER, LAYER_COLOR, MATERIALS, PEEL_DEPTH, PLACEMENT, POLYGON_CORNERS, SCREEN_CORNERS, TRIANGLES,
 };
@@ -46,7 +48,7 @@ pub use tetrahedra::{
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 80] = [
+pub const RESOURCES: [Resource; 82] = [
     BOX,
     FRAME,
     SLICE_CORNERS,
@@ -57,6 +59,7 @@ pub const RESOURCES: [Resource; 80] = [
     ENTRY,
     DIRECTION,
     ACCUMULATED,
+    REACHED,
     SURFACE_HIT,
     STORED,
     MARKS,
@@ -109,6 +112,7 @@ pub const RESOURCES: [Resource; 80] = [
     FEW_GREY_TRANSFER,
     PREINTEGRATED,
     AXIS,
+    IMPORTANCE,
     NEAREST_DISTANCE,
     CELL_RANGE,
     BLOCK_TABLE,

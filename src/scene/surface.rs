@@ -76,7 +76,11 @@ impl Scene {
 
     /// What the last sample of a ray stands for. One that looks for surfaces looks at all of its ray, and no further.
     pub fn last(&self) -> Last {
-        if self.surface.is_some() { Last::Partial } else { self.settings.sampling.last }
+        if self.surface.is_some() || self.settings.adaptive.importance {
+            Last::Partial
+        } else {
+            self.settings.sampling.last
+        }
     }
 
     /// Samples on a ray that is so many steps long.

@@ -101,15 +101,11 @@ const SHORTEST_SIDE: f64 = 1e-30;
 /// Whether single precision, in which devices have them, has numbers for the view and the volume's proportions.
 fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> Result<()> {
     let extent = scene.field.extent();
-    let inverse_step = 1.0 / (scene.settings.sampling.step * scene.field.finest());
+    let inverse_step = 1.0 / (scene.settings.step() * scene.field.finest());
     if extent.min_element() < SHORTEST_SIDE || !(inverse_step as f32).is_finite() {
         return Err(Error::input(
             &scene.field.volume.name,
-            format!(
-                "has a side of {:e} of the longest, in steps of {}",
-                extent.min_element(),
-                scene.settings.sampling.step
-            ),
+            format!("has a side of {:e} of the longest, in steps of {}", extent.min_element(), scene.settings.step()),
             "give spacings that differ less, or a longer --step: single precision has no number for its inverse",
         ));
     }
@@ -172,5 +168,5 @@ fn covered(clip: &[[f32; 3]], size: [u32; 2]) -> Region {
 
 fn longest_samples(scene: &Scene, rays: &ViewRays, region: Region) -> u32 {
     let longest = longest_ray(rays, 0.5 * scene.field.extent(), scene.clip_planes(), region);
-    scene.samples_on(longest / (scene.settings.sampling.step * scene.field.finest()))
+    scene.samples_on(longest / (scene.settings.step() * scene.field.finest()))
 }

@@ -76,7 +76,7 @@ impl Frame {
     /// `first`: column and row of the targets' first pixel.
     pub fn new(scene: &Scene, rays: &ViewRays, passes: u32, first: [u32; 2]) -> Self {
         let sampling = &scene.settings.sampling;
-        let step = sampling.step * scene.field.finest();
+        let step = scene.settings.step() * scene.field.finest();
         let dims = scene.field.dims().map(|n| n as f32);
         let map = TextureMap::of(&scene.field, TextureChoice::of(scene).kept);
         let levels = projection::of(&scene.settings).levels(scene, map);
@@ -93,8 +93,8 @@ impl Frame {
             inverse_step: (1.0 / step) as f32,
             offset: sampling.offset.steps() as f32,
             termination: sampling.termination as f32,
-            exponent: (sampling.step / scene.transfer.reference) as f32,
-            step_voxels: sampling.step as f32,
+            exponent: (scene.settings.step() / scene.transfer.reference) as f32,
+            step_voxels: scene.settings.step() as f32,
             passes,
             first_column: first[0],
             first_row: first[1],

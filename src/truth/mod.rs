@@ -1,6 +1,7 @@
 //! What pictures are held against: the exact integral along a ray, which shares no sampling with the renderers and their
-//! twins, and the table of pre-integrated classification that is made with it.
+//! twins, and what is made with it: tables of pre-integrated classification and of ways through cells, and the importance volume.
 
 pub mod cell_table;
 pub mod exact;
+pub mod importance;
 pub mod preintegrated;

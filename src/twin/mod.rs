@@ -1,5 +1,6 @@
 //! The f64 reference: a twin of every pass and of what passes share, under the same stem as in `glsl`.
 
+mod adaptive;
 pub mod backdrop;
 pub mod block_skip;
 pub mod clip_begin;
@@ -45,6 +46,7 @@ use crate::structure::gradients::GradientTexels;
 use crate::structure::grid::DistanceField;
 use crate::truth::cell_table::CellTable;
 use crate::truth::exact::Absorber;
+use crate::truth::importance::Importance;
 use crate::truth::preintegrated::PreintegratedTable;
 
 /// Depth of a ray that is saturated or gone, as in `glsl/shared/mark.glsl`.
@@ -62,10 +64,12 @@ pub struct Twin<'a> {
     pub slices: Option<&'a Slices>,
     /// What rays meet of a mesh of cells; none for methods that do not go through them.
     pub cells: Option<&'a CellsView>,
-    /// The transfer function as what light passes through on its way through cells.
+    /// The transfer function as what light passes through on its way through cells and on adaptive steps.
     pub medium: Option<&'a Absorber<'a>>,
     /// Ways through cells, where they are looked up.
     pub cell_table: Option<&'a CellTable>,
+    /// How long adaptive steps may be, where steps are.
+    pub importance: Option<&'a Importance>,
     /// N, main passes of the frame.
     pub passes: u32,
     pub distance: Option<&'a DistanceField>,
@@ -135,6 +139,8 @@ pub struct Pixel {
     pub cut: f64,
     /// The iso-surface that the ray has met, once it is lit.
     pub surface: Option<MetSurface>,
+    /// How far the ray has come, in adaptive steps of the shortest length.
+    pub reached: u32,
     /// The depth buffer.
     pub stored: f64,
     /// The depth buffer of shells, and how far a rasteriser may see it elsewhere.

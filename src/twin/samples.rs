@@ -16,7 +16,7 @@ pub(super) const FACE_ROUNDING: f64 = 1e-6;
 impl Twin<'_> {
     /// Distance between samples in volume units.
     pub fn step_length(&self) -> f64 {
-        self.scene.settings.sampling.step * self.scene.field.finest()
+        self.scene.settings.step() * self.scene.field.finest()
     }
 
     /// Length of the ray in steps.

@@ -57,6 +57,9 @@ impl Twin<'_> {
     }
 
     fn cast_ray(&self, pixel: &mut Pixel) -> Effect {
+        if self.importance.is_some() {
+            return self.adaptive_steps(pixel, None, true);
+        }
         if self.scene.sees_through_surfaces() {
             return self.crossings_on_ray(pixel);
         }

@@ -104,6 +104,7 @@ fn point(step: f64, error: f64, ms: f64) -> Point {
         samples_per_pass: 8,
         shells: None,
         table: None,
+        tolerance: None,
         max: Some(10.0 * error),
         rmse: Some(error),
         psnr: Some(-20.0 * error.log10()),

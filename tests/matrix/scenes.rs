@@ -29,7 +29,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 87] = [
+const KINDS: [(&str, Change); 89] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -126,6 +126,16 @@ const KINDS: [(&str, Change); 87] = [
         let point =
             |i: u32| [f64::from(i) / 24.0, 0.04 * f64::from(i), 0.5, 0.2, if i.is_multiple_of(5) { 0.0 } else { 0.3 }];
         s.transfer.points = Some((0..=24).map(point).collect());
+    }),
+    // Steps of lengths that many places allow, and more passes than rays need.
+    ("adaptive steps", |s| {
+        (s.adaptive.importance, s.adaptive.tolerance, s.adaptive.shortest) = (true, 0.05, 0.5);
+    }),
+    ("adaptive steps without colours and ends, cut by a plane in an orthographic view", |s| {
+        (s.adaptive.importance, s.adaptive.shortest, s.adaptive.longest) = (true, 0.7, 5.0);
+        (s.sampling.termination, s.camera.height) = (1.0, Some(1.2));
+        s.clips = vec![plane([1.0, 0.3, -0.2, 0.1])];
+        preset(s, "ramp");
     }),
     ("a corner in sight", |s| s.camera.target = [-0.6, -0.5, 0.0]),
     ("a transparent box", |s| s.meshes = vec![cuboid(0.5, 0.4)]),

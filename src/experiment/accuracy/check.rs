@@ -30,6 +30,7 @@ pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
             "leave it out",
         ));
     }
+    job.check_adaptive(scene)?;
     for step in &job.steps {
         let mut stepped = job.settings.clone();
         with_step(&mut stepped, &job.settings, *step);

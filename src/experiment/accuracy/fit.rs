@@ -93,10 +93,11 @@ pub fn answers(curves: &[Curve]) -> Vec<String> {
             Some((curve, point)) => format!(
                 "For an error of at most {name}, {} {} is the fastest: {:.2} ms, largest error {:.1e}.",
                 curve.name(),
-                match (point.shells, point.table) {
-                    (Some(count), _) => format!("with {count} of them"),
-                    (None, Some(nodes)) => format!("of {nodes} nodes a side"),
-                    (None, None) =>
+                match (point.shells, point.table, point.tolerance) {
+                    (Some(count), ..) => format!("with {count} of them"),
+                    (None, Some(nodes), _) => format!("of {nodes} nodes a side"),
+                    (None, None, Some(tolerance)) => format!("with a tolerance of {tolerance:.1e}"),
+                    (None, None, None) =>
                         format!("at a step of {} voxel{}", point.step, if point.step == 1.0 { "" } else { "s" }),
                 },
                 point.time().unwrap_or_default(),

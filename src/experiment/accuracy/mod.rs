@@ -1,5 +1,6 @@
 //! Error against run time: pictures of many steps, held against the exact integral, and how fast their error falls.
 
+mod adaptive;
 mod cells;
 mod check;
 mod explain;

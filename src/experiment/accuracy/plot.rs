@@ -89,23 +89,25 @@ pub fn time_svgs(found: &Accuracy) -> Result<Vec<String>> {
 /// Whether a point is one of a kind.
 type PointKind = fn(&Point) -> bool;
 
-/// Error against the step, and of shells against the inverse of their number, of tables against the distance of nodes, with lines of the first and the second order beside.
+/// Error against the step, and of shells against the inverse of their number, of tables against the distance of nodes, of adaptive steps
+/// against their tolerance, with lines of the first and the second order beside.
 /// Curves that are the same are one.
 ///
 /// # Errors
 /// As [`time_svgs`].
 pub fn step_svgs(found: &Accuracy) -> Result<Vec<String>> {
     let mut plots = Vec::new();
-    let kinds: [(PointKind, &str); 3] = [
-        (|point| point.shells.is_none() && point.table.is_none(), "step / voxels"),
+    let kinds: [(PointKind, &str); 4] = [
+        (|point| point.shells.is_none() && point.table.is_none() && point.tolerance.is_none(), "step / voxels"),
         (|point| point.shells.is_some(), "1 / number of shells"),
         (|point| point.table.is_some(), "distance of nodes, in parts of an axis"),
+        (|point| point.tolerance.is_some(), "tolerance"),
     ];
     for (is_shown, x) in kinds {
         let mut panels = panels(found, |of| {
             move |point: &Point| {
                 let y = of.error(point).filter(|_| is_shown(point))?;
-                Some(PlotPoint { x: point.step, y, range: None, ring: false })
+                Some(PlotPoint { x: point.tolerance.unwrap_or(point.step), y, range: None, ring: false })
             }
         });
         for panel in &mut panels {

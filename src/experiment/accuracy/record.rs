@@ -32,7 +32,7 @@ pub struct Accuracy {
     pub picture: Option<String>,
 }
 
-/// A method with one way of sampling, by its steps, shells by their number, or ways through cells by their tables.
+/// A method with one way of sampling, by its steps or their tolerance, shells by their number, or ways through cells by their tables.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     pub method: String,
@@ -74,7 +74,8 @@ pub struct Fit {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Voxels of the finest spacing; of shells the part of the scalar range from level to level, the inverse of their number; of
-    /// tables the part of their axes from node to node; where ways through cells are integrated exactly, nothing.
+    /// tables the part of their axes from node to node; of adaptive steps the shortest there may be; where ways through cells are integrated
+    /// exactly, nothing.
     pub step: f64,
     /// M, so that a pass goes about as far along a ray whatever the step; 0 of shells.
     pub samples_per_pass: u32,
@@ -84,6 +85,9 @@ pub struct Point {
     /// Nodes along a side of the table of ways through cells; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<u32>,
+    /// The error that adaptive steps are made for; absent where steps are all alike.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Largest and root mean squared difference of a channel; null where it is not finite.
     pub max: Option<f64>,
     pub rmse: Option<f64>,

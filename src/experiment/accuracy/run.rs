@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::adaptive::with_tolerance;
 use super::cells;
 use super::check::{check_scene, check_settings};
 use super::shells;
@@ -38,6 +39,8 @@ pub struct AccuracyJob {
     pub shell_counts: Vec<u32>,
     /// Nodes along a side of tables of ways through cells.
     pub table_sizes: Vec<u32>,
+    /// Errors that adaptive steps are made for; none where they are not measured.
+    pub tolerances: Vec<f64>,
     /// Every way of sampling by every method.
     pub full: bool,
     /// Frames timed for each picture.
@@ -102,6 +105,10 @@ impl AccuracyJob {
                 (host.say)(&format!("{name} by their number"));
                 curves.push(self.shell_curve(&asked, name)?);
             }
+        }
+        for name in self.adaptive_methods(scene) {
+            (host.say)(&format!("{name} in adaptive steps"));
+            curves.extend(self.adaptive_curves(&asked, name)?);
         }
         mark_pareto(&mut curves);
         let mut remarks = remarks_on_all(scene);
@@ -215,6 +222,29 @@ impl AccuracyJob {
         Ok(curve)
     }
 
+    /// Adaptive steps by their tolerance.
+    fn adaptive_curves(&self, asked: &Asked, name: MethodName) -> Result<Vec<Curve>> {
+        let Asked { checked, scene, .. } = *asked;
+        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
+        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
+        let mut curves = Vec::new();
+        for (filter, variation) in self.adaptive_ways() {
+            let adaptive = with_tolerance(scene, filter, scene.settings.adaptive.tolerance);
+            let mut curve = Curve { variation, expected: None, ..curve(asked, asked.own, &adaptive, name) };
+            for tolerance in self.falling_tolerances() {
+                let adaptive = with_tolerance(scene, filter, tolerance);
+                let (step, samples) = (adaptive.settings.step(), adaptive.settings.sampling.samples_per_pass);
+                let mut runner = Runner::new(Some(checked), adaptive, String::new());
+                for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
+                    let point = point(step, samples, &one, asked.truth, clock)?;
+                    curve.points.push(Point { tolerance: Some(tolerance), ..point });
+                }
+            }
+            curves.push(curve);
+        }
+        Ok(curves)
+    }
+
     /// The exact integral of each way through a cell, and tables of ever more nodes where there are colours.
     fn cell_curves(&self, asked: &Asked, name: MethodName) -> Result<Vec<Curve>> {
         let Asked { checked, scene, .. } = *asked;
@@ -312,6 +342,7 @@ fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, cloc
         samples_per_pass,
         shells: None,
         table: None,
+        tolerance: None,
         max: finite(error.max),
         rmse: finite(error.rmse),
         psnr: error.psnr,

@@ -19,6 +19,8 @@ pub(super) fn table(curve: &Curve) -> Table {
     } else if curve.is_of_tables() {
         columns[0] = Column::numbers("nodes");
         columns[6] = Column::numbers("fragments");
+    } else if curve.is_of_tolerances() {
+        columns[0] = Column::numbers("tolerance");
     }
     columns.extend(surface.into_iter().filter(|_| has_surface));
     let mut table = Table::new(columns);
@@ -47,7 +49,11 @@ fn cells(point: &Point) -> [String; 7] {
     let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
     let front = if point.pareto { " *" } else { "" };
     [
-        point.shells.or(point.table).map_or_else(|| point.step.to_string(), |count| count.to_string()),
+        match (point.shells.or(point.table), point.tolerance) {
+            (Some(count), _) => count.to_string(),
+            (None, Some(tolerance)) => error(Some(tolerance)),
+            (None, None) => point.step.to_string(),
+        },
         error(point.max),
         error(point.rmse),
         number(point.psnr, 1),
@@ -72,6 +78,7 @@ pub(super) fn order(curve: &Curve) -> String {
             let [few, many] = fit.steps.map(|part| (1.0 / part).round() + 1.0);
             format!("order {:.2} in the distance of nodes, over {few} to {many} a side ({theory})", fit.order)
         }
+        _ if curve.is_of_tolerances() => curve.kept_tolerances(),
         None if curve.is_of_tables() => format!("no order: the error does not fall with the nodes ({theory})"),
         fit => fitted(fit.as_ref(), &theory),
     }
@@ -136,7 +143,9 @@ pub fn csv(found: &Accuracy) -> Result<String> {
     let has_shells = found.curves.iter().any(Curve::is_of_shells);
     let heads = head.split(',').chain(of_surface.split(',').filter(|_| has_surface));
     let has_tables = found.curves.iter().any(Curve::is_of_tables);
+    let has_tolerances = found.curves.iter().any(Curve::is_of_tolerances);
     let heads = heads.chain(has_shells.then_some("shells")).chain(has_tables.then_some("table"));
+    let heads = heads.chain(has_tolerances.then_some("tolerance"));
     let mut table = Table::new(heads.map(Column::words).collect());
     let some = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for curve in &found.curves {
@@ -164,6 +173,7 @@ pub fn csv(found: &Accuracy) -> Result<String> {
             row.extend(surface_fields(curve, point).into_iter().filter(|_| has_surface));
             row.extend(has_shells.then(|| point.shells.map(|count| count.to_string()).unwrap_or_default()));
             row.extend(has_tables.then(|| point.table.map(|nodes| nodes.to_string()).unwrap_or_default()));
+            row.extend(has_tolerances.then(|| some(point.tolerance)));
             table.row(row);
         }
     }

@@ -29,40 +29,49 @@ use crate::scene::settings::Distance;
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
 use crate::structure::{self, Lookup, RaysFrom};
+use crate::truth::importance::Importance;
 
 /// How a resource is built.
 pub struct Recipe {
     pub makes: Resource,
-    /// The steps, by what sizes follow from and the resource's index.
-    pub steps: fn(&Facts, u16) -> Vec<Step>,
+    /// The steps, by what sizes follow from and the resource's index; none where the host alone has a form of it.
+    pub steps: Option<fn(&Facts, u16) -> Vec<Step>>,
     /// The bytes as the host makes them, where it has a form of its own.
     pub host: Option<fn(&Facts, u16) -> Vec<u8>>,
 }
 
 /// Every recipe.
-pub static RECIPES: [Recipe; 8] = [
+pub static RECIPES: [Recipe; 9] = [
     Recipe {
         makes: resource::CELL_RANGE,
-        steps: |facts, side| vec![cell_range(&Grid::new(&facts.scene.field, side.into()))],
+        steps: Some(|facts, side| vec![cell_range(&Grid::new(&facts.scene.field, side.into()))]),
         host: None,
     },
     Recipe {
         makes: resource::INTERESTING,
-        steps: |facts, _| {
+        steps: Some(|facts, _| {
             of_lookup(facts, |grid, lookup| vec![interesting(grid, facts.scene.field.holes.is_some(), lookup)])
-        },
+        }),
         host: None,
     },
-    Recipe { makes: resource::WIDE_2, steps: |facts, _| of_lookup(facts, |grid, _| vec![widen_2(grid)]), host: None },
-    Recipe { makes: resource::WIDE_4, steps: |facts, _| of_lookup(facts, |grid, _| vec![widen_4(grid)]), host: None },
+    Recipe {
+        makes: resource::WIDE_2,
+        steps: Some(|facts, _| of_lookup(facts, |grid, _| vec![widen_2(grid)])),
+        host: None,
+    },
+    Recipe {
+        makes: resource::WIDE_4,
+        steps: Some(|facts, _| of_lookup(facts, |grid, _| vec![widen_4(grid)])),
+        host: None,
+    },
     Recipe {
         makes: resource::OMNI_DISTANCE,
-        steps: |facts, _| of_lookup(facts, |grid, _| omni(grid, resource::OMNI_DISTANCE)),
+        steps: Some(|facts, _| of_lookup(facts, |grid, _| omni(grid, resource::OMNI_DISTANCE))),
         host: None,
     },
     Recipe {
         makes: resource::NEAREST_DISTANCE,
-        steps: |facts, _| {
+        steps: Some(|facts, _| {
             of_lookup(facts, |grid, lookup| match lookup.distance {
                 Distance::Omni => omni(grid, resource::NEAREST_DISTANCE),
                 Distance::Directional => directional(grid),
@@ -70,7 +79,7 @@ pub static RECIPES: [Recipe; 8] = [
                     bundle(grid, lookup.view.is_some_and(|view| matches!(view.from, RaysFrom::Along(_))))
                 }
             })
-        },
+        }),
         host: Some(|facts, _| {
             let texels = Texels::of(facts.scene);
             let shown = texels.shown(facts.scene);
@@ -80,14 +89,19 @@ pub static RECIPES: [Recipe; 8] = [
     },
     Recipe {
         makes: resource::GRADIENTS,
-        steps: |facts, _| gradients(facts.scene),
+        steps: Some(|facts, _| gradients(facts.scene)),
         host: Some(|facts, _| {
             let (scene, texels) = (facts.scene, Texels::of(facts.scene));
             let operator = scene.settings.shading.gradient;
             structure::gradients::texels(&scene.field, &texels.values, operator, &GradientCoding::of(scene))
         }),
     },
-    Recipe { makes: resource::SHELL_POLYGONS, steps: shells::shell, host: Some(shells::polygons) },
+    Recipe { makes: resource::SHELL_POLYGONS, steps: Some(shells::shell), host: Some(shells::polygons) },
+    Recipe {
+        makes: resource::IMPORTANCE,
+        steps: None,
+        host: Some(|facts, _| Importance::of(facts.scene).map_or_else(Vec::new, |made| made.steps)),
+    },
 ];
 
 /// The recipe of a resource; none for what is not built.

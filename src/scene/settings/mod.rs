@@ -10,6 +10,7 @@
 //! The test over all settings (`tests/settings.rs`) then asks for an option, a range and an error for each key that is
 //! new, and takes a value for an option where it cannot find one itself.
 
+mod adaptive;
 mod camera;
 mod clip;
 mod effects;
@@ -146,6 +147,11 @@ impl Settings {
         self.surface.is_asked() || self.shells.mode == Some(ShellMode::Surface)
     }
 
+    /// Distance between samples in voxels of the finest spacing; of adaptive sampling the shortest there may be.
+    pub fn step(&self) -> f64 {
+        if self.adaptive.importance { self.adaptive.shortest } else { self.sampling.step }
+    }
+
     /// Every path of a file that the settings name.
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);
@@ -178,5 +184,6 @@ sections! {
     projection: ProjectionSettings, ProjectionOptions;
     shells: ShellsSettings, ShellsOptions;
     sampling: SamplingSettings, SamplingOptions;
+    adaptive: AdaptiveSettings, AdaptiveOptions;
     method: MethodSettings, MethodOptions;
 }

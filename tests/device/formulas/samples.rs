@@ -112,6 +112,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
         cells: None,
         medium: None,
         cell_table: None,
+        importance: None,
         passes: 1,
         distance: None,
         blocks: None,

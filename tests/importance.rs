@@ -1,0 +1,122 @@
+//! The importance volume: how long adaptive steps may be, and what error they leave.
+
+use std::sync::Arc;
+
+use depthleap::frame::cpu;
+use depthleap::frame::structures::Structures;
+use depthleap::method;
+use depthleap::plan;
+use depthleap::read;
+use depthleap::scene::field::NanPolicy;
+use depthleap::scene::settings::{Filter, Settings};
+use depthleap::scene::volume::Voxels;
+use depthleap::scene::{Field, Scene, Volume};
+use depthleap::truth::exact::ExactIntegrator;
+use depthleap::truth::importance::{Importance, NOTHING_SHOWS};
+
+type Change = fn(&mut Settings);
+
+fn scene(builtin: &str, change: Change) -> Scene {
+    let mut settings = Settings::default();
+    settings.volume.builtin = Some(builtin.to_owned());
+    settings.image.size = [40, 40];
+    settings.sampling.filter = Filter::Exact;
+    settings.sampling.termination = 1.0;
+    settings.method.name = method::SINGLE_PASS.name();
+    settings.adaptive.importance = true;
+    change(&mut settings);
+    read::scene(&settings).expect("a sound scene")
+}
+
+fn points(settings: &mut Settings, points: &[[f64; 5]]) {
+    settings.transfer.points = Some(points.to_vec());
+}
+
+/// The largest error of a channel of the twin's picture against the exact integral.
+fn error(scene: &Scene) -> f64 {
+    let plan = plan::plan(scene, None).unwrap();
+    let mut structures = Structures::default();
+    structures.prepare(scene, &plan);
+    let frame = cpu::run(scene, &plan, &structures, cpu::SUB_PIXEL_BITS);
+    let exact = ExactIntegrator::of(scene).picture(&plan.view.rays, plan.view.size);
+    let off = frame.pixels.iter().zip(&exact).flat_map(|(a, b)| (0..4).map(|c| (a[c] - b[c]).abs()));
+    off.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_medium_that_is_the_same_everywhere_is_crossed_in_the_longest_steps() {
+    for opacity in [0.0, 1e-3, 0.5, 1.0] {
+        let mut of = scene("constant:24", |_| {});
+        of.settings.transfer.points = Some(vec![[0.0, 0.7, 0.2, 0.4, opacity]]);
+        let of = read::scene(&of.settings).unwrap();
+        let made = Importance::of(&of).unwrap();
+        let most = of.settings.adaptive.doublings();
+        assert_eq!(most, 8, "from 1/16 to 16 voxels");
+        assert!(made.steps.iter().all(|known| known & !NOTHING_SHOWS == most), "opacity {opacity}");
+        assert!(made.error <= 1e-9 && error(&of) <= 1e-9, "opacity {opacity}");
+    }
+}
+
+#[test]
+fn what_a_step_takes_for_linear_and_is_so_costs_nothing() {
+    // Along a ray through a linear field x goes evenly, but for the faces beyond the outermost voxel centres.
+    let of = scene("linear:24", |settings| points(settings, &[[0.0, 0.1, 0.9, 0.2, 0.0], [1.0, 1.0, 0.0, 0.5, 0.4]]));
+    let made = Importance::of(&of).unwrap();
+    let longest = made.steps.iter().map(|known| known & !NOTHING_SHOWS).max();
+    assert_eq!(longest, Some(of.settings.adaptive.doublings()));
+    assert!(error(&of) <= of.settings.adaptive.tolerance);
+}
+
+#[test]
+fn the_picture_keeps_to_the_tolerance() {
+    let changes: [(&str, Change); 4] = [
+        ("gaussian:28", |settings| points(settings, &[[0.0, 1.0, 0.5, 0.1, 0.0], [1.0, 0.2, 0.6, 1.0, 0.4]])),
+        ("shells:28", |_| {}),
+        ("marschner-lobb:30", |settings| points(settings, &[[0.0, 0.2, 0.4, 1.0, 0.0], [1.0, 1.0, 0.5, 0.1, 0.1]])),
+        // A jump: where a ray only touches its level no length of step is safe, and rays of the look say how often.
+        ("gaussian:28", |settings| settings.transfer.preset = Some("surface".to_owned())),
+    ];
+    for (name, change) in changes {
+        let mut before = f64::INFINITY;
+        for tolerance in [1.0 / 16.0, 1.0 / 255.0, 1.0 / 2000.0] {
+            let mut of = scene(name, change);
+            of.settings.adaptive.tolerance = tolerance;
+            let found = error(&of);
+            println!("{name}: {found:.2e} of {tolerance:.2e}");
+            assert!(found <= tolerance, "{name} is off by {found:e}, and {tolerance:e} is asked for");
+            assert!(found <= before, "{name}: a smaller tolerance of {tolerance:e} leaves more, {found:e}");
+            before = found;
+        }
+        // Without it the same steps leave more: the tolerance is what keeps them short.
+        let mut loose = scene(name, change);
+        (loose.settings.adaptive.shortest, loose.settings.adaptive.longest) = (4.0, 4.0);
+        assert!(error(&loose) > 1.0 / 2000.0, "{name}");
+    }
+}
+
+#[test]
+fn no_step_reaches_what_it_may_not_cross() {
+    const SIDE: usize = 21;
+    // One voxel unlike all others, which show as well.
+    let spike = [10, 9, 11];
+    let mut values = vec![0.5f32; SIDE * SIDE * SIDE];
+    values[(spike[2] * SIDE + spike[1]) * SIDE + spike[0]] = 1.0;
+    let volume = Volume::new("spike", [SIDE; 3], [1.0; 3], Voxels::F32(values)).unwrap();
+    let mut of =
+        scene("constant:21", |settings| points(settings, &[[0.0, 0.1, 0.9, 0.2, 0.0], [1.0, 1.0, 0.0, 0.5, 0.4]]));
+    of.field = Arc::new(Field::new(volume, Some([0.0, 1.0]), NanPolicy::Replace).unwrap());
+    let made = Importance::of(&of).unwrap();
+    let mut longest = 0.0f64;
+    for i in 0..made.steps.len() {
+        let cell = [i % (SIDE - 1), i / (SIDE - 1) % (SIDE - 1), i / ((SIDE - 1) * (SIDE - 1))];
+        let doublings = made.at(cell) & !NOTHING_SHOWS;
+        let step = of.settings.adaptive.shortest * f64::from(1u32 << doublings);
+        // Cells on both sides of the voxel have it at a corner.
+        let apart =
+            |axis: usize| (spike[axis] - 1).saturating_sub(cell[axis]).max(cell[axis].saturating_sub(spike[axis]));
+        let free = (0..3).map(apart).max().unwrap_or(0) as f64;
+        assert!(step <= free.max(1.0), "a step of {step} from {cell:?}, {free} voxels from the spike");
+        longest = longest.max(step);
+    }
+    assert_eq!(longest, 8.0, "the corners are as far off as steps of 8 voxels go");
+}
