@@ -140,7 +140,8 @@ vec4 gather(Ray ray, vec4 held) {
     bool done = is_done(held);
     while (!done && goes_on(ray, way)) {
         held = joined(held, adaptive_part(ray, way));
-        done = is_done(held);
+        // T is tested after whole steps.
+        done = way.lengths > 0.0 ? held.a >= 1.0 : is_done(held);
     }
     return held;
 }

@@ -20,6 +20,7 @@ use crate::resource;
 use crate::scene::Scene;
 use crate::scene::view::View;
 use crate::structure::Lookup;
+use crate::truth::importance::Importance;
 use crate::truth::preintegrated::PreintegratedTable;
 use crate::vulkan::{Device, Image};
 
@@ -30,6 +31,8 @@ pub struct Resident {
     pub(super) pipelines: Pipelines,
     /// The table of pre-integrated classification that is here, or will be.
     table: Option<Arc<PreintegratedTable>>,
+    /// The importance volume of adaptive sampling that is here.
+    importance: Option<Arc<Importance>>,
 }
 
 /// An asset that is there.
@@ -52,7 +55,13 @@ pub struct Pending {
 
 impl Resident {
     pub fn new(device: &Arc<Device>) -> Self {
-        Self { device: device.clone(), kept: Vec::new(), pipelines: Pipelines::new(device), table: None }
+        Self {
+            device: device.clone(),
+            kept: Vec::new(),
+            pipelines: Pipelines::new(device),
+            table: None,
+            importance: None,
+        }
     }
 
     /// What a plan's steps mean by a resource.
@@ -110,9 +119,14 @@ impl Resident {
         asked.then(|| self.table.get_or_insert_with(|| Arc::new(PreintegratedTable::new(scene))).clone())
     }
 
+    /// The importance volume of the scene that was prepared last, where it has adaptive steps.
+    pub fn importance(&self) -> Option<&Importance> {
+        self.importance.as_deref()
+    }
+
     /// Forgets the tables of classification and the importance volume: the next plan's scene may have other steps.
     pub fn forget_table(&mut self) {
-        self.table = None;
+        (self.table, self.importance) = (None, None);
         self.kept.retain(|kept| {
             ![resource::PREINTEGRATED, resource::AXIS, resource::TET_TABLE, resource::IMPORTANCE]
                 .contains(&kept.asset.resource)
@@ -121,13 +135,13 @@ impl Resident {
 
     /// Forgets what depends on the transfer function: the next plan's scene may have another one.
     pub fn forget_transfer(&mut self) {
-        self.table = None;
+        (self.table, self.importance) = (None, None);
         self.kept.retain(|kept| matches!(kept.asset.resource.of.life, Life::Volume | Life::Shell));
     }
 
     /// Forgets the scene; pipelines stay, which the next one may draw with too.
     pub fn forget_scene(&mut self) {
-        self.table = None;
+        (self.table, self.importance) = (None, None);
         self.kept.clear();
     }
 
@@ -198,8 +212,11 @@ impl Resident {
     fn upload(&mut self, facts: &Facts, resource: Resource, steps: &[Step]) -> Result<(DeviceObject, f64)> {
         steps.iter().for_each(|step| self.device.trace(&step.name));
         let table = self.table(facts.scene);
-        let facts = Facts { table: table.as_deref(), ..*facts };
         let begin = ProcessTime::now();
+        if resource == resource::IMPORTANCE {
+            self.importance = Importance::of(facts.scene).map(Arc::new);
+        }
+        let facts = Facts { table: table.as_deref(), importance: self.importance.as_deref(), ..*facts };
         let bytes: Cow<[u8]> = match (&resource.of.origin, recipe(resource).and_then(|recipe| recipe.host)) {
             (Origin::Host(bytes), _) => bytes(&facts),
             (_, Some(build)) => build(&facts, resource.index).into(),
@@ -249,7 +266,7 @@ impl Resident {
     /// As [`Resident::prepare`].
     pub fn begin(&mut self, scene: &Scene, lookup: &Lookup) -> Result<Option<Pending>> {
         let view = View::new(scene)?;
-        let of = |lookup| Facts { scene, view: &view, passes: 0, lookup, table: None };
+        let of = |lookup| Facts { scene, view: &view, passes: 0, lookup, table: None, importance: None };
         let facts = of(Some(*lookup));
         let builds = Builds::of_distances(&facts, false);
         self.pipelines.prepare(&builds.steps)?;

@@ -29,6 +29,7 @@ use crate::resource;
 use crate::scene::Scene;
 use crate::scene::settings::{Cull, MethodSettings, Settings};
 use crate::scene::texture::TextureChoice;
+use crate::truth::importance::Importance;
 use crate::vulkan::Device;
 
 /// How often frames are run.
@@ -227,6 +228,8 @@ impl<'a> Runner<'a> {
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
+        let of_cpu = if on_cpu { Importance::of(scene) } else { None };
+        let importance = of_cpu.as_ref().or_else(|| self.resident.as_ref()?.importance());
         let counted =
             |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate).with_layers(&counts.layers);
         let run = Run {
@@ -256,7 +259,7 @@ impl<'a> Runner<'a> {
                 .collect(),
             plan: plan.lines(),
             notes: self.notes(&entry),
-            warnings: warnings(scene, plan, &entry.picture),
+            warnings: warnings(scene, plan, &entry.picture, importance),
             texture: TextureRecord::of(plan),
             orbit: None,
             effect: scene.effect.as_deref().map(EffectRecord::of),
@@ -311,7 +314,8 @@ impl<'a> Runner<'a> {
     }
 
     fn structure_bytes(&self, plan: &Plan) -> u64 {
-        let structures = [resource::NEAREST_DISTANCE, resource::block_ranges(), resource::BLOCK_TABLE];
+        let structures =
+            [resource::NEAREST_DISTANCE, resource::block_ranges(), resource::BLOCK_TABLE, resource::IMPORTANCE];
         let there = self.resident.iter().flat_map(|resident| resident.bytes(plan));
         there.filter(|(r, _)| structures.contains(r)).map(|(_, b)| b).sum()
     }

@@ -8,9 +8,10 @@ use crate::projection::{self, Ends};
 use crate::resource;
 use crate::scene::Scene;
 use crate::scene::settings::Shows;
+use crate::truth::importance::Importance;
 
-/// The warnings of a run, a sentence each.
-pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
+/// The warnings of a run, a sentence each; with the importance volume of adaptive steps, where there is one.
+pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture, importance: Option<&Importance>) -> Vec<String> {
     let mut warnings = plan::warnings(scene, plan);
     let known_empty = warnings.iter().any(|warning| warning.starts_with("the picture is empty"));
     if !known_empty && picture.pixels.iter().all(|pixel| pixel[3] == 0.0) {
@@ -27,7 +28,20 @@ pub fn warnings(scene: &Scene, plan: &Plan, picture: &Picture) -> Vec<String> {
     warnings.extend(background_left(scene, plan));
     warnings.extend(no_numbers(scene, picture));
     warnings.extend(clipped(scene, picture));
+    warnings.extend(importance.and_then(|importance| beyond_tolerance(scene, importance)));
     warnings
+}
+
+/// That adaptive steps leave more error than is asked for, as short as they may be.
+fn beyond_tolerance(scene: &Scene, importance: &Importance) -> Option<String> {
+    let settings = &scene.settings.adaptive;
+    (importance.error > settings.tolerance).then(|| {
+        format!(
+            "adaptive steps down to {} voxels are off from the exact integral by up to {:.1e}, and a tolerance of {:.1e} is asked for; \
+             give shorter ones (--shortest)",
+            settings.shortest, importance.error, settings.tolerance
+        )
+    })
 }
 
 /// That more surfaces lie behind each other than are peeled.

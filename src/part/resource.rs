@@ -11,6 +11,7 @@ use crate::scene::Scene;
 use crate::scene::settings::Formats;
 use crate::scene::view::View;
 use crate::structure::Lookup;
+use crate::truth::importance::Importance;
 use crate::truth::preintegrated::PreintegratedTable;
 use crate::vulkan::{ImageShape, texel_bytes};
 
@@ -118,6 +119,8 @@ pub struct Facts<'a> {
     pub lookup: Option<Lookup>,
     /// Of pre-integrated classification, where contents are asked.
     pub table: Option<&'a PreintegratedTable>,
+    /// Of adaptive sampling, where contents are asked.
+    pub importance: Option<&'a Importance>,
 }
 
 impl Resource {

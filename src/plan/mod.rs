@@ -74,7 +74,7 @@ impl Plan {
 
     /// What sizes and contents of the plan's resources follow from.
     pub fn facts<'a>(&'a self, scene: &'a Scene) -> Facts<'a> {
-        Facts { scene, view: &self.view, passes: self.passes, lookup: self.distance, table: None }
+        Facts { scene, view: &self.view, passes: self.passes, lookup: self.distance, table: None, importance: None }
     }
 
     /// All that steps read, write or go through, each once, in the order of lists.
@@ -203,7 +203,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     };
     let looks_up = passes > 0 && context.has(&DISTANCES);
     let distance = choice.lookup.or_else(|| context.lookup()).filter(|_| looks_up);
-    let facts = Facts { scene, view: &view, passes, lookup: distance, table: None };
+    let facts = Facts { scene, view: &view, passes, lookup: distance, table: None, importance: None };
     // The twins of a method without a device read no resources but each other's.
     let on_host = choice.on_host || scene.settings.method.build == Builder::Host;
     let Builds { steps: before, list: builds } = match method.on_device {

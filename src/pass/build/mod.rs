@@ -29,7 +29,6 @@ use crate::scene::settings::Distance;
 use crate::shared::Slice;
 use crate::structure::grid::Grid;
 use crate::structure::{self, Lookup, RaysFrom};
-use crate::truth::importance::Importance;
 
 /// How a resource is built.
 pub struct Recipe {
@@ -100,7 +99,7 @@ pub static RECIPES: [Recipe; 9] = [
     Recipe {
         makes: resource::IMPORTANCE,
         steps: None,
-        host: Some(|facts, _| Importance::of(facts.scene).map_or_else(Vec::new, |made| made.steps)),
+        host: Some(|facts, _| facts.importance.map_or_else(Vec::new, |made| made.steps.clone())),
     },
 ];
 
