@@ -1,6 +1,6 @@
 //! How long a picture of a mesh of tetrahedra takes, in CPU time of the process (all threads) on a device that is a CPU, beside VTK's rays
 //! [Bunyk et al. 1997] and projected tetrahedra where Python has the package `vtk` (`pip install vtk`): the same mesh, view and transfer
-//! function; those of ours take turns. Then the cost against the number of cells, by every method.
+//! function; those of ours take turns. The propagation with early z and counts of the rays left, and without. Then the cost against the number of cells, by every method.
 //!
 //! `cargo bench --bench tetrahedra`. Needs a device; without `../shared/data` it runs on built-in meshes.
 
@@ -8,8 +8,9 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-use depthleap::frame::{GpuFrame, Measure, Resident};
-use depthleap::method::{self, METHODS};
+use depthleap::frame::{EarlyEnd, GpuFrame, Measure, Resident};
+use depthleap::method::{METHODS, TET_PROPAGATION};
+use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
 use depthleap::plan::{Choice, plan_for};
 use depthleap::scene::settings::Settings;
@@ -41,7 +42,8 @@ fn main() -> Result<()> {
     for (name, scene) in &scenes {
         let Some(mesh) = scene.tetrahedra.as_deref() else { continue };
         println!("{name}: {} cells", mesh.cells.len());
-        ours(&device, scene)?;
+        ours(&device, scene, &by_method())?;
+        ours(&device, scene, &by_ends())?;
         match peers(scene, mesh) {
             Ok(lines) => lines.lines().for_each(|line| println!("  VTK {line}")),
             Err(reason) => println!("  no peer beside it: {reason}"),
@@ -51,7 +53,7 @@ fn main() -> Result<()> {
     for boxes in CUBES {
         let scene = scene(|s| s.volume.builtin = Some(format!("tets-cube:{boxes}")))?;
         println!("{} cells, cube root {:.1}", 6 * boxes.pow(3), (6.0 * (boxes as f64).powi(3)).cbrt());
-        ours(&device, &scene)?;
+        ours(&device, &scene, &by_method())?;
     }
     Ok(())
 }
@@ -65,34 +67,61 @@ fn scene(volume: impl FnOnce(&mut Settings)) -> Result<Scene> {
     read::scene(&settings)
 }
 
-/// Prints the median time of a frame by each method.
-fn ours(device: &Arc<Device>, scene: &Scene) -> Result<()> {
-    let methods: Vec<&Method> = METHODS.into_iter().filter(|method| method.goes_through_cells()).collect();
+/// A way to draw a mesh.
+struct Way {
+    words: &'static str,
+    method: &'static Method,
+    form: Option<Form>,
+    early_end: Option<EarlyEnd>,
+}
+
+/// By each method, as the papers cull.
+fn by_method() -> Vec<Way> {
+    let rows = METHODS.into_iter().filter(|method| method.goes_through_cells());
+    rows.map(|method| Way { words: method.name, method, form: method.papers, early_end: None }).collect()
+}
+
+/// The propagation with what ends rays and passes, and without.
+fn by_ends() -> Vec<Way> {
+    let way = |words, form, early_end| Way { words, method: &TET_PROPAGATION, form, early_end };
+    let papers = TET_PROPAGATION.papers;
+    vec![
+        way("early z and counts", papers, None),
+        way("early z", papers, Some(EarlyEnd::Never)),
+        way("neither", None, Some(EarlyEnd::Never)),
+    ]
+}
+
+/// Prints the median time of a frame by each way, the passes that any fragment runs in, and their fragments.
+fn ours(device: &Arc<Device>, scene: &Scene, ways: &[Way]) -> Result<()> {
     let mut frames = Vec::new();
     let mut resident = Resident::new(device);
-    for method in &methods {
+    for way in ways {
         let mut scene = scene.clone();
-        scene.settings.method.name = method.name();
-        let plan = plan_for(&scene, Choice { form: method::papers_form(method.name()), ..Choice::default() })?;
+        scene.settings.method.name = way.method.name();
+        let plan = plan_for(&scene, Choice { form: way.form, ..Choice::default() })?;
         resident.prepare(&scene, &plan)?;
-        let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, None)?;
-        let counts = frame.run(Measure::Counts { statistics: false })?;
-        let main: u64 = counts.fragments.iter().flat_map(|counts| &counts.main).sum();
-        frames.push((frame, plan.passes, main, Vec::new()));
+        let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, way.early_end)?;
+        let fragments = frame.run(Measure::Counts { statistics: false })?.fragments.unwrap_or_default();
+        let run = fragments.main.iter().filter(|fragments| **fragments > 0).count();
+        let sum = |of: &[u64]| of.iter().sum::<u64>();
+        let [main, updates] = [sum(&fragments.main), sum(&fragments.intermediate)];
+        let words = format!(
+            "{} passes, {run} with fragments: {main} main fragments, {updates} of updates; {} pixels a pass",
+            plan.passes,
+            plan.view.region.pixels()
+        );
+        frames.push((frame, words, Vec::new()));
     }
     for _ in 0..RUNS {
-        for (frame, _, _, times) in &mut frames {
+        for (frame, _, times) in &mut frames {
             times.push(frame.run(Measure::Nothing)?.cpu_ms);
         }
     }
-    for (method, (_, passes, main, mut times)) in methods.iter().zip(frames) {
+    for (way, (_, words, mut times)) in ways.iter().zip(frames) {
         times.sort_by(f64::total_cmp);
         let spread = times[times.len() - 1] - times[0];
-        println!(
-            "  {:<24} {:9.1} (spread {spread:.1}), {passes} passes, {main} main fragments",
-            method.name,
-            times[times.len() / 2]
-        );
+        println!("  {:<24} {:9.1} (spread {spread:.1}), {words}", way.words, times[times.len() / 2]);
     }
     Ok(())
 }
