@@ -1,13 +1,15 @@
 //! The papers' numbers against each other, and the comparison of synthetic counts with them.
 
 use depthleap::experiment::reproduce::papers::{DATA_SETS, DataSet, FOV, PaperRow, VIEWPORT};
+use depthleap::experiment::reproduce::stated::{contributing, stated_table};
 use depthleap::experiment::reproduce::{
-    FORMAT, FigureRecord, ReproducedSet, Reproduction, Variant, csv, embedded_lines, embedded_verdict, lines, page,
-    text, verdict,
+    FORMAT, FigureRecord, ReproducedSet, Reproduction, StatedRecord, Variant, csv, embedded_lines, embedded_verdict,
+    lines, page, text, verdict,
 };
 use depthleap::measure::record::{CountsRecord, Ideal, LayerRecord, Run};
 use depthleap::provenance::Provenance;
 use depthleap::report::html::Png;
+use depthleap::report::table::TextLayout;
 use depthleap::scene::settings::{MeshSettings, PartialSegments};
 
 use crate::runs::run;
@@ -238,6 +240,7 @@ fn found() -> Reproduction {
         columns: DATA_SETS.iter().map(column).collect(),
         figures: Vec::new(),
         timed: None,
+        stated: Some(stated()),
     }
 }
 
@@ -260,6 +263,41 @@ fn lines_have_both_sides_and_the_range_of_the_sweep() {
     assert!(intermediate.iter().all(|line| line.row != PaperRow::Ideal), "the bound is one of main fragments");
     let absent = lines(set("Foot"), &found.columns[1], true);
     assert!(absent.iter().all(|line| line.ours.is_none() && line.sweep.is_none()) && absent.len() == 4);
+}
+
+/// Slices of which one in a hundred fragments contributes, and a propagation of which three passes in five have fragments.
+fn stated() -> StatedRecord {
+    let set = |name: &str, variants: Vec<Variant>| ReproducedSet {
+        name: name.to_owned(),
+        source: "a paper".to_owned(),
+        file: Some("here".to_owned()),
+        absent: None,
+        picture: None,
+        variants,
+    };
+    let variant =
+        |value: &str, runs: Vec<Run>| Variant { choice: "a choice".to_owned(), value: value.to_owned(), runs };
+    let slices = vec![counted("slices-3d", false, 1000, 0), counted("slices-3d+ftb", false, 400, 0)];
+    let passes = || vec![run("tet-propagation", &[9, 4, 1, 0, 0], &[])];
+    StatedRecord {
+        slices: vec![set("Cube", vec![variant("surface", slices)])],
+        propagation: set("Fin", vec![variant("read meanwhile", passes()), variant("none", passes())]),
+    }
+}
+
+#[test]
+fn what_is_stated_in_words_stands_beside_ours() {
+    let stated = stated();
+    let (part, all) = contributing(&stated.slices[0].variants[0]).unwrap();
+    assert_eq!((part, all), (0.01, 1000));
+    let text = stated_table(&stated, None).unwrap().text(&TextLayout::default());
+    assert!(
+        text.contains("Cube, surface") && text.contains("0.2 to 4 %") && text.contains("1.00 % of 1,000"),
+        "{text}"
+    );
+    assert!(text.contains("3 of 5 passes have fragments"), "{text}");
+    let nothing = ReproducedSet { variants: Vec::new(), ..stated.propagation };
+    assert!(stated_table(&StatedRecord { slices: Vec::new(), propagation: nothing }, None).is_none());
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn found() -> Reproduction {
         command: "depthleap reproduce".to_owned(),
         date: "2026-01-01T00:00:00Z".to_owned(),
     };
-    Reproduction { provenance, columns: Vec::new(), figures: Vec::new(), timed: Some(timed) }
+    Reproduction { provenance, columns: Vec::new(), figures: Vec::new(), timed: Some(timed), stated: None }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::Curve;
 use crate::error::Result;
+use crate::method;
 use crate::projection;
 use crate::scene::Scene;
 use crate::scene::settings::Classification;
@@ -41,6 +42,12 @@ pub fn with_table(scene: &Scene, nodes: Option<u32>) -> Result<Scene> {
 }
 
 impl Curve {
+    /// Whether it has one picture, of ways through cells that are integrated exactly.
+    pub fn is_of_exact_cells(&self) -> bool {
+        let through_cells = method::of_cells().iter().any(|name| name.name() == self.method);
+        through_cells && !self.is_of_tables()
+    }
+
     /// Whether it goes by the nodes of a table.
     pub fn is_of_tables(&self) -> bool {
         self.points.iter().any(|point| point.table.is_some())

@@ -78,10 +78,14 @@ fn gradients(scene: &Scene) -> &'static str {
 
 /// What holds for every way of sampling of a scene.
 pub fn remarks_on_all(scene: &Scene) -> Vec<String> {
-    let mut remarks = vec![format!(
-        "Segments of main passes are kept about as long as {} samples of one voxel, so that all steps have about as many passes.",
-        scene.settings.sampling.samples_per_pass
-    )];
+    let segments = || {
+        format!(
+            "Segments of main passes are kept about as long as {} samples of one voxel, so that all steps have about as many passes.",
+            scene.settings.sampling.samples_per_pass
+        )
+    };
+    // Cells have lengths of their own.
+    let mut remarks: Vec<String> = scene.tetrahedra.is_none().then(segments).into_iter().collect();
     let surface = match (&scene.surface, scene.polygons.show()) {
         (None, _) => None,
         (Some(_), false) => Some(

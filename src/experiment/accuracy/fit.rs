@@ -97,6 +97,7 @@ pub fn answers(curves: &[Curve]) -> Vec<String> {
                     (Some(count), ..) => format!("with {count} of them"),
                     (None, Some(nodes), _) => format!("of {nodes} nodes a side"),
                     (None, None, Some(tolerance)) => format!("with a tolerance of {tolerance:.1e}"),
+                    (None, None, None) if curve.is_of_exact_cells() => "integrated exactly".to_owned(),
                     (None, None, None) =>
                         format!("at a step of {} voxel{}", point.step, if point.step == 1.0 { "" } else { "s" }),
                 },

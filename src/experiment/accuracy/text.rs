@@ -21,11 +21,17 @@ pub(super) fn table(curve: &Curve) -> Table {
         columns[6] = Column::numbers("fragments");
     } else if curve.is_of_tolerances() {
         columns[0] = Column::numbers("tolerance");
+    } else if curve.is_of_exact_cells() {
+        columns[0] = Column::numbers("integral");
+        columns[6] = Column::numbers("fragments");
     }
     columns.extend(surface.into_iter().filter(|_| has_surface));
     let mut table = Table::new(columns);
     for point in &curve.points {
         let mut row = cells(point).to_vec();
+        if curve.is_of_exact_cells() {
+            row[0] = "exact".to_owned();
+        }
         row.extend(surface_cells(point.surface.as_ref()).into_iter().filter(|_| has_surface));
         table.row(row);
     }
@@ -79,6 +85,7 @@ pub(super) fn order(curve: &Curve) -> String {
             format!("order {:.2} in the distance of nodes, over {few} to {many} a side ({theory})", fit.order)
         }
         _ if curve.is_of_tolerances() => curve.kept_tolerances(),
+        _ if curve.is_of_exact_cells() => "each way through a cell is integrated exactly, up to rounding".to_owned(),
         None if curve.is_of_tables() => format!("no order: the error does not fall with the nodes ({theory})"),
         fit => fitted(fit.as_ref(), &theory),
     }

@@ -4,6 +4,7 @@ use super::embedded_rows::embedded_ratio;
 use super::papers::{DataSet, PaperRow};
 use super::rates::{RATE_TABLES, absent_rates, present_rates, rate_remarks, rates_sweep, rates_table};
 use super::rows::ratio;
+use super::stated::{STATED_TITLE, stated_table};
 use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::text::{KINDS, absent, kind_of_fragments, open_choices, percent, present};
 use super::{FigureRecord, ReproducedSet, Reproduction, TimedRecord, Variant};
@@ -25,6 +26,7 @@ pub fn page(found: &Reproduction, pictures: Pictures) -> String {
     let mut page = Html::page("Depthleap reproduces the papers' tables", &intro);
     present(found).for_each(|(set, column)| section(&mut page, set, column, pictures));
     found.timed.iter().for_each(|timed| timed_sections(&mut page, timed, pictures));
+    stated_section(&mut page, found);
     figures(&mut page, &found.figures, pictures);
     let absent: Vec<String> = absent(found).into_iter().chain(found.timed.iter().flat_map(absent_rates)).collect();
     if !absent.is_empty() {
@@ -102,6 +104,16 @@ fn timed_sections(page: &mut Html, timed: &TimedRecord, pictures: Pictures) {
         page.tag("p", &verdict);
         page.raw("</section>\n");
     }
+}
+
+/// What the papers state in words.
+fn stated_section(page: &mut Html, found: &Reproduction) {
+    let clock = found.timed.as_ref().and_then(|timed| timed.clock);
+    let Some(table) = found.stated.as_ref().and_then(|stated| stated_table(stated, clock)) else { return };
+    page.raw("<section>\n");
+    page.tag("h2", STATED_TITLE);
+    page.table(&table);
+    page.raw("</section>\n");
 }
 
 /// The pictures of scenes like the papers' figures, each with what it shows.

@@ -17,6 +17,7 @@
 //! | `timed` | {`clock`, `rates`, `termination`} or null | frames of [Stegmaier05], [KW03] and [Heidrich95 §5] that were timed; absent in results of older programs |
 //! | `timed.clock` | `cpu`, `gpu`, `wall` or null | what times are compared by on this device; null where nothing was timed |
 //! | `timed.rates` | array like `columns` | data sets of its Table 1, and of those of [KW03] and [Heidrich95 §5], told apart by `source`: of each variant a run for each method, viewport (`settings.image`) and direction (`settings.camera`), with `frame_ms`, `cpu_ms` and `gpu_ms`; variants other than the first in the smallest viewport alone |
+//! | `stated` | {`slices`, `propagation`} or null | what [KW03] and [Weiler03] state in words: volumes in slices, a run of all of them and one front to back whose `ideal` are the fragments that contribute; a mesh by ray propagation, with counts of rays and without; absent in results of older programs |
 //! | `timed.termination` | one like those of `columns` | early ray termination: the variants are transfer functions, with two runs for each direction: `settings.sampling.termination` below 1, and 1 |
 //!
 //! The papers' own numbers are data of the program ([`papers`](super::papers), [`rates`](super::rates),
@@ -41,6 +42,17 @@ pub struct Reproduction {
     pub figures: Vec<FigureRecord>,
     #[serde(default)]
     pub timed: Option<TimedRecord>,
+    #[serde(default)]
+    pub stated: Option<StatedRecord>,
+}
+
+/// What the papers state of passes and fragments in words.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StatedRecord {
+    /// Volumes in slices, all of them and front to back, a pass each.
+    pub slices: Vec<ReproducedSet>,
+    /// A mesh of tetrahedra by ray propagation, with counts of the rays left and without.
+    pub propagation: ReproducedSet,
 }
 
 /// Frames that were timed.

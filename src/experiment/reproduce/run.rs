@@ -7,8 +7,9 @@ use super::data::{DataFolder, LEFT_OUT};
 use super::figures::{self, DrawnFigure};
 use super::papers::{DATA_SETS, DataSet, FOV, SAMPLES_PER_PASS, VIEWPORT};
 use super::rates::{RATE_TABLES, TimingPlan, file_of, time_rates};
+use super::stated_run::{Devices, run_stated};
 use super::termination_run::time_termination;
-use super::{FORMAT, ReproducedSet, Reproduction, TimedRecord, Variant};
+use super::{FORMAT, ReproducedSet, Reproduction, StatedRecord, TimedRecord, Variant};
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
@@ -85,6 +86,7 @@ pub struct Counted {
     pub columns: Vec<CountedSet>,
     pub timed: TimedSets,
     pub figures: Vec<DrawnFigure>,
+    pub stated: StatedRecord,
 }
 
 impl ReproduceJob {
@@ -101,9 +103,14 @@ impl ReproduceJob {
         let any = rates.iter().any(|(column, _)| !column.variants.is_empty());
         let clock = checked.filter(|_| any).map(clock);
         let timed = TimedSets { clock, rates, termination: time_termination(checked, times, &self.timing, host)? };
+        let counted =
+            checked.map(|one| Checked { device: one.device.clone(), check: one.check.clone(), early_end: None });
+        let devices = Devices { counted: counted.as_ref(), every_pass: checked };
+        let stated = run_stated(&devices, times, &self.timing, host)?;
+        drop(counted);
         let figures = figures::draw(checked, self.data(Part::Figures), host)?;
         opened.map_or(Ok(()), host.close)?;
-        Ok(Counted { columns, timed, figures })
+        Ok(Counted { columns, timed, figures, stated })
     }
 
     /// Whether any volume of a part that was asked for is there.
@@ -247,6 +254,11 @@ pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
         rates: keep_all(rates, |set| format!("rates {}", set.source.split(',').next().unwrap_or_default()))?,
         termination: keep_set(folder, "termination", (termination, None))?,
     };
+    let StatedRecord { slices, propagation } = counted.stated;
+    let stated = StatedRecord {
+        slices: keep_all(slices.into_iter().map(|set| (set, None)).collect(), |_| "slices".to_owned())?,
+        propagation: keep_set(folder, "propagation", (propagation, None))?,
+    };
     let mut figures = Vec::new();
     for (mut figure, picture) in counted.figures {
         figure.run.iter_mut().for_each(|run| run.settings = settings_in(folder, run.settings.clone()));
@@ -255,7 +267,8 @@ pub fn keep(folder: &Path, counted: Counted) -> Result<Reproduction> {
         }
         figures.push(figure);
     }
-    let found = Reproduction { provenance: Provenance::now(FORMAT), columns, figures, timed: Some(timed) };
+    let provenance = Provenance::now(FORMAT);
+    let found = Reproduction { provenance, columns, figures, timed: Some(timed), stated: Some(stated) };
     write_json(&folder.join("reproduce.json"), &found)?;
     Ok(found)
 }

@@ -7,6 +7,7 @@ use super::embedded_rows::{EmbeddedLine, embedded_lines, embedded_verdict};
 use super::papers::{DATA_SETS, DataSet, OPEN};
 use super::rates::{RATE_TABLES, absent_rates, rate_remarks, rates_sweep, rates_table};
 use super::rows::{lines, verdict};
+use super::stated::{STATED_TITLE, stated_table};
 use super::termination_table::{TERMINATION_TITLE, gains_table};
 use super::{FragmentLine, ReproducedSet, Reproduction, TimedRecord};
 use crate::report::number::thousands;
@@ -120,6 +121,11 @@ pub fn text(found: &Reproduction) -> String {
         out.push('\n');
     }
     found.timed.iter().for_each(|timed| out += &timed_text(timed));
+    let clock = found.timed.as_ref().and_then(|timed| timed.clock);
+    if let Some(table) = found.stated.as_ref().and_then(|stated| stated_table(stated, clock)) {
+        let layout = TextLayout { indent: 4, ..TextLayout::default() };
+        let _ = writeln!(out, "{STATED_TITLE}\n{}", table.text(&layout));
+    }
     let absent: Vec<String> = absent(found).into_iter().chain(found.timed.iter().flat_map(absent_rates)).collect();
     if !absent.is_empty() {
         let _ = writeln!(out, "Absent\n  {}\n", absent.join("\n  "));
