@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use depthleap::frame::cpu;
 use depthleap::frame::structures::Structures;
-use depthleap::method;
+use depthleap::method::{self, METHODS};
 use depthleap::plan;
+use depthleap::projection::MIP;
 use depthleap::read;
 use depthleap::scene::field::NanPolicy;
-use depthleap::scene::settings::{Filter, Settings};
+use depthleap::scene::settings::{Alpha, Classification, Filter, LightSettings, Offset, Settings};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, Volume};
 use depthleap::truth::exact::ExactIntegrator;
@@ -135,4 +136,27 @@ fn no_step_reaches_what_it_may_not_cross() {
         longest = longest.max(step);
     }
     assert_eq!(longest, 8.0, "the corners are as far off as steps of 8 voxels go");
+}
+
+#[test]
+fn four_methods_take_adaptive_steps_and_no_mesh_does() {
+    let takes = |of: &Scene| -> Vec<&str> {
+        METHODS.into_iter().filter(|row| method::takes(row.name(), of)).map(|row| row.name).collect()
+    };
+    assert_eq!(takes(&scene("shells:12", |_| {})), ["rc-ert", "single-pass", "single-pass+compute", "cpu"]);
+    assert_eq!(takes(&scene("tets-ball:2", |_| {})), [""; 0]);
+    let refused: [(&str, Change); 8] = [
+        ("--longest", |settings| settings.adaptive.longest = 0.01),
+        ("--projection", |settings| settings.projection.kind = MIP.name()),
+        ("--classification", |settings| settings.sampling.classification = Classification::PreIntegrated),
+        ("--alpha", |settings| settings.sampling.alpha = Alpha::Paper),
+        ("--filter", |settings| settings.sampling.filter = Filter::Nearest),
+        ("--offset", |settings| settings.sampling.offset = Offset::Midpoint),
+        ("[surface]", |settings| settings.surface.iso = Some(90.0)),
+        ("[[light]]", |settings| settings.lights = vec![LightSettings::default()]),
+    ];
+    for (what, change) in refused {
+        let error = plan::check(&scene("shells:12", change)).unwrap_err().to_string();
+        assert!(error.contains("--importance") && error.contains(what), "{what}: {error}");
+    }
 }

@@ -7,7 +7,7 @@ use super::look::Look;
 use super::record::{AutoRecord, Estimate};
 use super::work::{Tuning, WayOfWorking, Work};
 use crate::error::{Error, Result};
-use crate::method::{self, METHODS};
+use crate::method::{self, METHODS, SINGLE_PASS};
 use crate::part::form::Form;
 use crate::part::rows::{Ahead, Method};
 use crate::plan;
@@ -61,6 +61,11 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
         // Those of cells differ in little, and none is weighed.
         let cells = METHODS.into_iter().find(|method| method.goes_through_cells() && method.loops());
         scene.settings.method.name = cells.map_or_else(Default::default, Method::name);
+        return Ok(None);
+    }
+    if scene.settings.adaptive.importance {
+        // Whoever takes them, steps are those that the importance volume allows, and a loop has nothing between them.
+        scene.settings.method.name = SINGLE_PASS.name();
         return Ok(None);
     }
     let begin = ThreadTime::now();

@@ -78,6 +78,11 @@ pub fn takes_cells(scene: &Scene) -> Result<()> {
     }
     let refused = |input: &str, why: &str, remedy: &str| Err(Error::usage(input, why, remedy));
     match () {
+        () if settings.adaptive.importance => refused(
+            "adaptive.importance (--importance)",
+            "is of steps among voxels, and ways through cells have lengths of their own",
+            "leave it out",
+        ),
         () if !scene.polygons.is_empty() => refused(
             "[[mesh]], [[clip]] with a mesh",
             "are surfaces among voxels, and ways through cells are not cut at them",

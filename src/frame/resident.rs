@@ -120,8 +120,8 @@ impl Resident {
     }
 
     /// The importance volume of the scene that was prepared last, where it has adaptive steps.
-    pub fn importance(&self) -> Option<&Importance> {
-        self.importance.as_deref()
+    pub fn importance(&self) -> Option<Arc<Importance>> {
+        self.importance.clone()
     }
 
     /// Forgets the tables of classification and the importance volume: the next plan's scene may have other steps.

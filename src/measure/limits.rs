@@ -6,6 +6,7 @@ use crate::plan::Plan;
 use crate::plan::builds::Maker;
 use crate::resource;
 use crate::scene::{Scene, Volume};
+use crate::truth::importance;
 use crate::vulkan::DeviceInfo;
 
 /// Bytes a pixel takes on the host at the most: the frame in f64 twice, the picture in f32, the encoded file.
@@ -102,6 +103,14 @@ pub fn check_host(scene: &Scene, plan: &Plan) -> Result<()> {
     if !there(shells) {
         let problem = format!("has shells that take {} MiB of memory, which are not available", shells >> 20);
         return Err(Error::input(&scene.field.volume.name, problem, "use fewer shells, or levels of smaller ones"));
+    }
+    if scene.settings.adaptive.importance {
+        let needed = importance::host_bytes(scene);
+        if !there(needed) {
+            let problem =
+                format!("needs {} MiB of memory to find lengths of steps, which are not available", needed >> 20);
+            return Err(Error::input(&scene.field.volume.name, problem, "leave --importance out"));
+        }
     }
     let needed = HOST_BYTES * pixels(scene);
     if there(needed) {

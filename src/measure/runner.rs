@@ -60,6 +60,8 @@ pub struct Runner<'a> {
     pub(crate) resident: Option<Resident>,
     /// The twin's frames, by the method that skips nothing and by M.
     references: BTreeMap<(&'static str, u32), CpuFrame>,
+    /// The importance volume of adaptive steps, where no device has one.
+    importance: Option<Arc<Importance>>,
 }
 
 /// A scene with its plan, and what was chosen for it.
@@ -93,7 +95,8 @@ impl Entry {
 impl<'a> Runner<'a> {
     pub fn new(checked: Option<&'a Checked>, mut scene: Scene, name: String) -> Self {
         scene.unit = checked.map_or(scene.unit, |checked| checked.check.unit);
-        Self { checked, scene, name, resident: checked.map(|c| Resident::new(&c.device)), references: BTreeMap::new() }
+        let resident = checked.map(|c| Resident::new(&c.device));
+        Self { checked, scene, name, resident, references: BTreeMap::new(), importance: None }
     }
 
     /// Measures the scene by each of `methods`. `progress` hears what is being done.
@@ -133,6 +136,7 @@ impl<'a> Runner<'a> {
         let before = kept(&self.scene);
         change(&mut self.scene.settings);
         self.references.clear();
+        self.importance = None;
         // What is on the device was made for how values are kept there.
         let same = before == kept(&self.scene);
         self.resident.iter_mut().for_each(if same { Resident::forget_table } else { Resident::forget_scene });
@@ -175,7 +179,8 @@ impl<'a> Runner<'a> {
         let planned = self.plan(method)?;
         let Planned { scene, plan, .. } = &planned;
         if !plan.method.on_device {
-            return prepare_cpu(planned);
+            let importance = self.importance(scene);
+            return prepare_cpu(planned, importance);
         }
         let (Some(checked), Some(resident)) = (self.checked, self.resident.as_mut()) else { return Err(no_device()) };
         resident.prepare(scene, plan)?;
@@ -189,10 +194,25 @@ impl<'a> Runner<'a> {
         Ok(Entry { planned, frame: Some(frame), counts, picture, plain: vec![], timed: vec![] })
     }
 
+    /// The importance volume of a scene with adaptive steps: the device's, or one that is made here once.
+    fn importance(&mut self, scene: &Scene) -> Option<Arc<Importance>> {
+        if !scene.settings.adaptive.importance {
+            return None;
+        }
+        if let Some(there) = self.resident.as_ref().and_then(Resident::importance) {
+            return Some(there);
+        }
+        if self.importance.is_none() {
+            self.importance = Importance::of(scene).map(Arc::new);
+        }
+        self.importance.clone()
+    }
+
     /// The twin's frame for a method: those with the same samples share it.
     fn reference(&mut self, scene: &Scene, passes: u32) -> Result<&CpuFrame> {
         let method = method::of(scene.settings.method.name)?;
         let bits = self.checked.map_or(cpu::SUB_PIXEL_BITS, |c| c.device.info.sub_pixel_bits);
+        let importance = self.importance(scene);
         match self.references.entry((method.unskipped().name, scene.settings.sampling.samples_per_pass)) {
             btree_map::Entry::Occupied(made) => Ok(made.into_mut()),
             btree_map::Entry::Vacant(place) => {
@@ -202,7 +222,7 @@ impl<'a> Runner<'a> {
                 scene.settings.method.name = rule.name();
                 let plan = plan::plan(&scene, rule.papers)?;
                 let table = self.resident.as_mut().and_then(|resident| resident.table(&scene));
-                let structures = Structures { table, ..Structures::default() };
+                let structures = Structures { table, importance, ..Structures::default() };
                 Ok(place.insert(cpu::run(&scene, &plan, &structures, bits)))
             }
         }
@@ -228,8 +248,7 @@ impl<'a> Runner<'a> {
         let driver = info.map_or_else(String::new, |i| format!("{} {}", i.driver_name, i.driver_info));
         let form = plan.form.filter(|_| !on_cpu);
         let memory = self.memory(&entry);
-        let of_cpu = if on_cpu { Importance::of(scene) } else { None };
-        let importance = of_cpu.as_ref().or_else(|| self.resident.as_ref()?.importance());
+        let importance = self.importance(scene);
         let counted =
             |counts: frame::Counts| CountsRecord::of(counts.main, counts.intermediate).with_layers(&counts.layers);
         let run = Run {
@@ -259,7 +278,7 @@ impl<'a> Runner<'a> {
                 .collect(),
             plan: plan.lines(),
             notes: self.notes(&entry),
-            warnings: warnings(scene, plan, &entry.picture, importance),
+            warnings: warnings(scene, plan, &entry.picture, importance.as_deref()),
             texture: TextureRecord::of(plan),
             orbit: None,
             effect: scene.effect.as_deref().map(EffectRecord::of),
@@ -331,10 +350,11 @@ impl<'a> Runner<'a> {
     }
 }
 
-fn prepare_cpu(planned: Planned) -> Result<Entry> {
+fn prepare_cpu(planned: Planned, importance: Option<Arc<Importance>>) -> Result<Entry> {
     let Planned { scene, plan, .. } = &planned;
+    let structures = Structures { importance, ..Structures::default() };
     let begin = (std::time::Instant::now(), cpu_time::ProcessTime::now());
-    let frame = cpu::run(scene, plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
+    let frame = cpu::run(scene, plan, &structures, cpu::SUB_PIXEL_BITS);
     let run = FrameRun {
         frame_ms: begin.0.elapsed().as_secs_f64() * 1e3,
         cpu_ms: begin.1.elapsed().as_secs_f64() * 1e3,

@@ -69,7 +69,7 @@ fn check_passes(scene: &Scene, method: &Method, passes: u32) -> Result<()> {
     let sampling = &scene.settings.sampling;
     if passes > MOST_PASSES {
         return Err(Error::usage(
-            format!("--step {} --samples-per-pass {}", sampling.step, sampling.samples_per_pass),
+            format!("{} --samples-per-pass {}", scene.settings.step_in_words(), sampling.samples_per_pass),
             format!("this view needs {passes} main passes, and at most {MOST_PASSES} are possible"),
             "take longer steps or more samples a pass",
         ));

@@ -1,29 +1,32 @@
 //! Scene to frame plan: a flat list of steps, and what was left out and why. Needs no device.
 
 pub mod builds;
+mod left_out;
 mod limits;
 mod precision;
 mod text;
 mod warnings;
 
+pub use left_out::LeftOut;
 pub use warnings::{notes, warnings};
 
 use crate::error::Result;
-use crate::feature::{self, DISTANCES, FEATURES};
+use crate::feature::{self, DISTANCES};
 use crate::method;
 use crate::part::form::Form;
 use crate::part::resource::{Facts, Resource};
-use crate::part::rows::{Context, Feature, Method, Traversal, Why};
+use crate::part::rows::{Context, Method, Traversal};
 use crate::part::steps::Steps;
 use crate::part::{Step, Work};
 use crate::resource;
+use crate::scene::Scene;
 use crate::scene::gathered::Gathered;
 use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
-use crate::scene::{Region, Scene};
 use crate::structure::Lookup;
 use builds::{Asset, Build, Builds};
+use left_out::{left_out, whole_diagonal};
 
 /// The frame of one scene, ready to be run.
 #[derive(Clone, Debug)]
@@ -93,19 +96,6 @@ impl Plan {
         found.sort_by_key(|resource| resource::order(*resource));
         found.dedup();
         found
-    }
-}
-
-/// Something a frame may have and this one has not.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct LeftOut {
-    pub what: String,
-    pub why: String,
-}
-
-impl LeftOut {
-    fn new(what: impl Into<String>, why: impl Into<String>) -> Self {
-        Self { what: what.into(), why: why.into() }
     }
 }
 
@@ -270,54 +260,4 @@ fn frame(context: &Context) -> Vec<Step> {
     let mut steps = Steps::default();
     (context.method.steps)(context, &mut steps);
     steps.into_list()
-}
-
-/// What the frame may have and has not, with the reasons.
-fn left_out(context: &Context) -> Vec<LeftOut> {
-    let (scene, view, passes) = (context.scene, context.view, context.passes);
-    let why = |feature: &&Feature| match context.answer(feature) {
-        Err(Why::Because(why)) => Some(LeftOut::new(feature.name, why)),
-        Err(Why::Untold) | Ok(()) => None,
-    };
-    let mut left_out: Vec<LeftOut> = FEATURES.iter().filter_map(why).collect();
-    let [width, height] = view.size;
-    if view.region.size() != view.size {
-        let Region { width: w, height: h, .. } = view.region;
-        left_out.push(LeftOut::new("pixels of targets", format!("the box covers {w} x {h} of {width} x {height}")));
-    }
-    if context.method.loops() {
-        if scene.settings.sampling.passes > 0 {
-            left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));
-        }
-    } else if context.method.traversal == Traversal::Shells {
-        if scene.settings.sampling.passes > 0 {
-            left_out.push(LeftOut::new("forced main passes", "each shell is a pass"));
-        }
-        if scene.surface.is_some() {
-            left_out.push(LeftOut::new("places between samples", "polygons tell where the surface is"));
-        }
-    } else if context.method.stack().is_some() {
-        if scene.settings.sampling.passes > 0 && context.method.back_to_front() {
-            left_out.push(LeftOut::new("forced main passes", "one pass draws all slices"));
-        }
-    } else if context.method.traversal == Traversal::Passes
-        && scene.settings.method.planner
-        && scene.settings.sampling.passes == 0
-    {
-        let diagonal = whole_diagonal(scene).div_ceil(scene.settings.sampling.samples_per_pass);
-        if diagonal > passes {
-            let last = diagonal - 1;
-            left_out.push(LeftOut::new(
-                if passes == last { format!("main pass {last}") } else { format!("main passes {passes} to {last}") },
-                format!("the longest ray of this view has {} samples", view.longest_samples),
-            ));
-        }
-    }
-    left_out
-}
-
-/// Samples on the diagonal of the volume, the longest ray of any view.
-fn whole_diagonal(scene: &Scene) -> u32 {
-    let step = scene.settings.step() * scene.field.finest();
-    (scene.field.extent().length() / step).ceil() as u32
 }

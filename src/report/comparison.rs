@@ -92,9 +92,14 @@ impl<'a> RunGroup<'a> {
     pub fn subtitle(&self) -> String {
         let run = self.first();
         let (image, sampling) = (&run.settings.image, sampling_asked(run));
+        let adaptive = &run.settings.adaptive;
+        let steps = match adaptive.importance {
+            true => format!("adaptive steps for an error of {}", adaptive.tolerance),
+            false => format!("step {}", sampling.step),
+        };
         let mut text = format!(
-            "{} x {} pixels, step {}, M = {}, T = {}",
-            image.size[0], image.size[1], sampling.step, sampling.samples_per_pass, sampling.termination
+            "{} x {} pixels, {steps}, M = {}, T = {}",
+            image.size[0], image.size[1], sampling.samples_per_pass, sampling.termination
         );
         if sampling.extra_fetches > 0 {
             let _ = write!(text, ", {} extra fetches a sample", sampling.extra_fetches);

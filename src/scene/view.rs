@@ -106,7 +106,7 @@ fn representable(scene: &Scene, rays: &ViewRays, corners: [&[[f32; 3]]; 2]) -> R
         return Err(Error::input(
             &scene.field.volume.name,
             format!("has a side of {:e} of the longest, in steps of {}", extent.min_element(), scene.settings.step()),
-            "give spacings that differ less, or a longer --step: single precision has no number for its inverse",
+            "give spacings that differ less, or longer steps (--step, --shortest): single precision has no number for its inverse",
         ));
     }
     let has = |v: DVec3| v.to_array().into_iter().all(|c| (c as f32).is_finite());

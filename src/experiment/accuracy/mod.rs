@@ -5,6 +5,7 @@ mod cells;
 mod check;
 mod explain;
 mod fit;
+mod others;
 mod page;
 mod plot;
 mod question;

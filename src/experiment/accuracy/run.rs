@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use super::adaptive::with_tolerance;
-use super::cells;
 use super::check::{check_scene, check_settings};
-use super::shells;
 use super::surface::{ExactSurface, SurfacePictures, exact, shows_only, surface_error, surface_orders};
 use super::way::{Way, with_step};
 use super::{Accuracy, Curve, FORMAT, Point, SurfaceError, expected_order, fit, mark_pareto, remarks, remarks_on_all};
@@ -48,13 +45,13 @@ pub struct AccuracyJob {
 }
 
 /// What is the same for all ways of sampling.
-struct Asked<'a> {
-    checked: &'a Checked,
-    scene: &'a Scene,
+pub(super) struct Asked<'a> {
+    pub checked: &'a Checked,
+    pub scene: &'a Scene,
     /// The scene's own way.
-    own: Way,
+    pub own: Way,
     /// The exact integral.
-    truth: &'a Picture,
+    pub truth: &'a Picture,
     /// What is known of the exact surface.
     surface: Option<&'a ExactSurface>,
     /// Whether the exact picture has opacities above T.
@@ -199,84 +196,13 @@ impl AccuracyJob {
     }
 }
 
-impl AccuracyJob {
-    /// Shells by their number.
-    fn shell_curve(&self, asked: &Asked, name: MethodName) -> Result<Curve> {
-        let (checked, scene) = (asked.checked, asked.scene);
-        let mut curve = Curve {
-            expected: Some(shells::EXPECTED_ORDER),
-            remarks: vec![shells::REMARK.to_owned()],
-            ..curve(asked, asked.own, scene, name)
-        };
-        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
-        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
-        for count in self.shell_numbers() {
-            let mut runner = Runner::new(Some(checked), shells::with_shells(scene, count)?, String::new());
-            for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
-                let point = point(1.0 / f64::from(count), 0, &one, asked.truth, clock)?;
-                curve.points.push(Point { shells: Some(count), ..point });
-            }
-        }
-        let errors: Vec<(f64, f64)> = curve.points.iter().filter_map(|p| Some((p.step, p.rmse?))).collect();
-        curve.order = fit(&errors);
-        Ok(curve)
-    }
-
-    /// Adaptive steps by their tolerance.
-    fn adaptive_curves(&self, asked: &Asked, name: MethodName) -> Result<Vec<Curve>> {
-        let Asked { checked, scene, .. } = *asked;
-        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
-        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
-        let mut curves = Vec::new();
-        for (filter, variation) in self.adaptive_ways() {
-            let adaptive = with_tolerance(scene, filter, scene.settings.adaptive.tolerance);
-            let mut curve = Curve { variation, expected: None, ..curve(asked, asked.own, &adaptive, name) };
-            for tolerance in self.falling_tolerances() {
-                let adaptive = with_tolerance(scene, filter, tolerance);
-                let (step, samples) = (adaptive.settings.step(), adaptive.settings.sampling.samples_per_pass);
-                let mut runner = Runner::new(Some(checked), adaptive, String::new());
-                for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
-                    let point = point(step, samples, &one, asked.truth, clock)?;
-                    curve.points.push(Point { tolerance: Some(tolerance), ..point });
-                }
-            }
-            curves.push(curve);
-        }
-        Ok(curves)
-    }
-
-    /// The exact integral of each way through a cell, and tables of ever more nodes where there are colours.
-    fn cell_curves(&self, asked: &Asked, name: MethodName) -> Result<Vec<Curve>> {
-        let Asked { checked, scene, .. } = *asked;
-        let clock = Clock::on(checked.device.info.is_cpu(), checked.device.info.timestamp_valid_bits > 0);
-        let effort = Effort { warmups: usize::from(self.repeats > 0), repeats: self.repeats, reference: false };
-        let mut curves = Vec::new();
-        for (variation, expected, sizes) in cells::ways(scene, &self.table_sizes) {
-            let own = curve(asked, asked.own, scene, name);
-            let mut curve = Curve { variation, expected, remarks: Vec::new(), ..own };
-            for nodes in sizes {
-                let mut runner = Runner::new(Some(checked), cells::with_table(scene, nodes)?, String::new());
-                for one in runner.measure(std::slice::from_ref(&curve.settings.method), effort, &|_| {})? {
-                    let step = nodes.map_or(scene.settings.sampling.step, |nodes| 1.0 / f64::from(nodes - 1));
-                    let point = point(step, 1, &one, asked.truth, clock)?;
-                    curve.points.push(Point { table: nodes, ..point });
-                }
-            }
-            let errors: Vec<(f64, f64)> = curve.points.iter().filter_map(|p| Some((p.step, p.rmse?))).collect();
-            curve.order = fit(&errors);
-            curves.push(curve);
-        }
-        Ok(curves)
-    }
-}
-
 /// So many ways of sampling are run by every method: of a surface, which all of them find alike, the scene's own.
 fn for_all(scene: &Scene) -> usize {
     if scene.surface.is_some() { 1 } else { 3 }
 }
 
 /// A curve of a scene that is sampled in some way, without points.
-fn curve(asked: &Asked, way: Way, scene: &Scene, name: MethodName) -> Curve {
+pub(super) fn curve(asked: &Asked, way: Way, scene: &Scene, name: MethodName) -> Curve {
     Curve {
         method: name.name().to_owned(),
         variation: way.words(asked.own),
@@ -333,7 +259,11 @@ pub fn keep(folder: &Path, mut found: Accuracy, exact: &Picture) -> Result<Accur
     Ok(found)
 }
 
-fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, clock: Clock) -> Result<Point> {
+/// A picture beside the exact one.
+///
+/// # Errors
+/// When the two have other sizes.
+pub(super) fn point(step: f64, samples_per_pass: u32, one: &Measured, truth: &Picture, clock: Clock) -> Result<Point> {
     let error = compare(&one.picture, truth, None)?;
     let finite = |value: f64| value.is_finite().then_some(value);
     let (ms, timed) = Point::times(one.run.timing(clock));

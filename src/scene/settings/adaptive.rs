@@ -15,8 +15,8 @@ section! {
     #[command(next_help_heading = "Sampling")]
     AdaptiveSettings, AdaptiveOptions, "adaptive";
 
-    /// Adaptive sampling: an importance volume holds how long a step may be from each cell on, in place of --step (rc-ert, single-pass,
-    /// single-pass+compute, cpu)
+    /// Adaptive sampling: an importance volume holds how long a step may be from each cell on, in place of --step and --last
+    /// (rc-ert, single-pass, single-pass+compute, cpu)
     #[arg(long = "importance", num_args = 0, default_missing_value = "true")]
     importance: bool = false;
 
@@ -36,16 +36,12 @@ section! {
 impl AdaptiveSettings {
     /// How often the shortest step is doubled before it is longer than a voxel of the finest spacing.
     pub fn voxel_doublings(&self) -> u8 {
-        // The cast saturates.
         (1.0 / self.shortest).log2().floor().max(0.0) as u8
     }
 
     /// How often the shortest step is doubled at the most.
     pub fn doublings(&self) -> u8 {
-        // A step of so many of the shortest is longer than any ray of single precision.
-        const MOST: u8 = 20;
-        let doublings = (self.longest / self.shortest).log2().floor();
-        // The cast saturates.
-        (doublings.max(0.0) as u8).min(MOST)
+        // No more than 23, by the limits of both.
+        (self.longest / self.shortest).log2().floor().max(0.0) as u8
     }
 }

@@ -152,6 +152,12 @@ impl Settings {
         if self.adaptive.importance { self.adaptive.shortest } else { self.sampling.step }
     }
 
+    /// The same as an option.
+    pub fn step_in_words(&self) -> String {
+        let option = if self.adaptive.importance { "--shortest" } else { "--step" };
+        format!("{option} {}", self.step())
+    }
+
     /// Every path of a file that the settings name.
     pub fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.path);

@@ -12,9 +12,6 @@ use crate::truth::exact::{Absorber, ExactIntegrator};
 /// Rays of a look.
 pub const RAYS: usize = 512;
 
-/// Cells that are drawn for one in which anything shows.
-const DRAWS: usize = 4096;
-
 /// A ray from where it enters the volume's box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookRay {
@@ -31,19 +28,25 @@ pub struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    /// The same rays for the same scene, whatever it is seen from.
+    /// The same rays for the same scene, whatever it is seen from; none where the transfer function tells no values apart, so that no
+    /// step can err.
     pub fn new(scene: &'a Scene, response: &Response, ranges: &[[f32; 2]]) -> Self {
         let field = &scene.field;
-        let cells = field.cells();
+        let (cells, dims) = (field.cells(), field.dims());
         let exact = ExactIntegrator::new(field, &scene.transfer);
+        let shown: Vec<u32> =
+            (0..ranges.len() as u32).into_par_iter().filter(|cell| response.shows(ranges[*cell as usize])).collect();
         let ray = |number: usize| {
             let mut draw = Random(number as u64);
-            let shown = (0..DRAWS)
-                .map(|_| draw.below(ranges.len() as u32) as usize)
-                .find(|cell| response.shows(ranges[*cell]))?;
+            let shown = *shown.get(draw.below(shown.len() as u32) as usize)? as usize;
             let cell = [shown % cells[0], shown / cells[0] % cells[1], shown / (cells[0] * cells[1])];
-            let place = DVec3::from_array(std::array::from_fn(|axis| cell[axis] as f64 + 0.5 + draw.part()));
-            let through = (place - 0.5 * DVec3::from_array(field.dims().map(|n| n as f64))) * field.voxel();
+            // Cells on the border reach out to the faces.
+            let place = DVec3::from_array(std::array::from_fn(|axis| {
+                let low = if cell[axis] == 0 { 0.0 } else { cell[axis] as f64 + 0.5 };
+                let high = if cell[axis] + 1 == cells[axis] { dims[axis] as f64 } else { cell[axis] as f64 + 1.5 };
+                low + (high - low) * draw.part()
+            }));
+            let through = (place - 0.5 * DVec3::from_array(dims.map(|n| n as f64))) * field.voxel();
             let direction = draw.direction();
             let far = 2.0 * field.extent().length();
             let line = ViewRay { origin: through - far * direction, direction };

@@ -7,9 +7,9 @@
 //!
 //! **How much error a step may have.** As few steps as an error of the whole allows all have errors alike. None errs by more than E, and a
 //! ray no longer than D takes no more than D / shortest of them: with E = tolerance shortest / D no ray is farther off than the tolerance,
-//! even where all its steps err to one side and nothing hides what is behind. They do not: the importance volume is made for a multiple
-//! of that, the greatest power of the root of two for which none of [`RAYS`] rays in all directions through what shows is off from the exact integral
-//! by more than half the tolerance (`look.rs`).
+//! even where all its steps err to one side and nothing hides what is behind. They do not: the importance volume is made for a multiple of
+//! that, a power of the root of two, the greatest found in at most ten tries for which none of [`RAYS`] rays in all directions through what
+//! shows is off from the exact integral by more than half the tolerance (`look.rs`).
 //!
 //! **Steps that reach into other cells.** A step of a length is allowed from a cell on where what the field bends by, the most among all
 //! cells that the step may touch (`reach.rs`), is no more than any of them allows. What is evenly filled allows any length; so does what
@@ -46,8 +46,6 @@ pub struct Importance {
     pub cells: [usize; 3],
     /// How often the shortest step is doubled from each cell on, and [`NOTHING_SHOWS`]; x fastest.
     pub steps: Vec<u8>,
-    /// The multiple of the error that no sum of errors takes beyond the tolerance.
-    pub slack: f64,
     /// The most that any ray of the look is off from the exact integral in a channel.
     pub error: f64,
 }
@@ -55,13 +53,14 @@ pub struct Importance {
 /// The bit that is set where nothing shows all along the step, in any direction.
 pub const NOTHING_SHOWS: u8 = 0x80;
 
-/// Bounds that are tried at the most.
+/// Bounds that are tried at the most: each takes about as long as all else, and four to six are usual.
 const TRIES: usize = 10;
 
-/// The first bound tried is this power of the root of two times the one of the worst case: errors of many steps to both sides.
+/// The first bound tried is this power of the root of two times the one of the worst case: that of real volumes was 2^9 to 2^14 times it.
 const FIRST: i32 = 24;
 
-/// The least and the greatest power of the root of two.
+/// The least power of the root of two, with which steps are the shortest wherever the worst case may be met, and the greatest, with which
+/// they are the longest.
 const POWERS: [i32; 2] = [-8, 48];
 
 /// The part of the tolerance that rays of the look keep to: pictures have more rays.
@@ -73,36 +72,26 @@ impl Importance {
         let settings = &scene.settings.adaptive;
         let asked = settings.importance && scene.tetrahedra.is_none();
         asked.then(|| {
-            let parts = Parts::of(scene);
-            let look = Look::new(scene, &parts.response, &parts.ranges);
+            let (parts, look) = Parts::of(scene);
             let reaches = parts.reaches(scene);
-            let within = |made: &Self| made.error <= KEPT * settings.tolerance;
-            let mut power = FIRST;
+            let (mut power, [mut low, mut high]) = (FIRST, POWERS);
             let mut best: Option<Self> = None;
-            let (mut low, mut high) = (POWERS[0], POWERS[1]);
             for _ in 0..TRIES {
                 let made = parts.made(scene, power, &reaches, &look);
-                // Errors grow about as their bound does.
+                // Errors grow about as their bound does; without any there is nothing to keep to.
                 let ratio = 2.0 * (KEPT * settings.tolerance / made.error).log2();
                 let by = if ratio.is_finite() { ratio.floor().clamp(-64.0, 64.0) as i32 } else { 64 };
-                if within(&made) {
-                    low = power;
-                    let next = by > 0;
-                    best = Some(made);
-                    if !next {
-                        break;
-                    }
+                if by >= 0 {
+                    (low, best) = (power, Some(made));
                 } else {
                     high = power - 1;
-                    best = best.or(Some(made));
                 }
-                if low >= high {
+                if by == 0 || low >= high {
                     break;
                 }
                 power = (power + by).clamp(low + 1, high);
             }
-            let kept = best.filter(within);
-            kept.unwrap_or_else(|| parts.made(scene, POWERS[0], &reaches, &look))
+            best.unwrap_or_else(|| parts.made(scene, POWERS[0], &reaches, &look))
         })
     }
 
@@ -140,11 +129,20 @@ impl Strides {
     }
 }
 
+/// Bytes that making the importance volume of a scene takes for each cell, besides one for each length of step: ranges, and what they
+/// become.
+const BYTES_OF_CELL: u64 = 17;
+
+/// Bytes of memory that making the importance volume of a scene takes.
+pub fn host_bytes(scene: &Scene) -> u64 {
+    let cells: u64 = scene.field.cells().iter().map(|n| *n as u64).product();
+    cells * (BYTES_OF_CELL + u64::from(scene.settings.adaptive.doublings()))
+}
+
 /// What lengths of steps follow from, whatever error they may have.
 struct Parts {
     response: Response,
-    /// The least and the greatest x of each cell, and as the response has them.
-    ranges: Vec<[f32; 2]>,
+    /// The least and the greatest x of each cell, as the response has them.
     coded: Vec<[u8; 2]>,
     /// How much the field bends in each cell.
     bends: Vec<Code>,
@@ -169,24 +167,26 @@ struct Reach {
 }
 
 impl Parts {
-    fn of(scene: &Scene) -> Self {
+    /// Those of a scene, with a look at it.
+    fn of(scene: &Scene) -> (Self, Look<'_>) {
         let field = &scene.field;
         let (ranges, bends) = bends(field);
+        let response = Response::of(scene);
+        let look = Look::new(scene, &response, &ranges);
         let slack = scene.value_slack();
         let shows = |[low, high]: &[f32; 2]| {
             u8::from(scene.transfer.visible(f64::from(*low) - slack, f64::from(*high) + slack))
         };
-        let response = Response::of(scene);
-        Self {
+        let parts = Self {
             coded: ranges.par_iter().map(|range| response.coded(*range)).collect(),
-            response,
             shows: ranges.par_iter().map(shows).collect(),
-            ranges,
+            response,
             bends,
             sides: (field.voxel() / field.finest()).to_array(),
             cells: field.cells(),
             longest: field.extent().length() / field.finest(),
-        }
+        };
+        (parts, look)
     }
 
     /// Every length of step, from the shortest on.
@@ -206,10 +206,9 @@ impl Parts {
     /// The volume for the bound of the worst case times a power of the root of two, with the look at it.
     fn made(&self, scene: &Scene, power: i32, reaches: &[Reach], look: &Look) -> Importance {
         let settings = &scene.settings.adaptive;
-        let slack = 2f64.powf(0.5 * f64::from(power));
-        let bound = slack * settings.tolerance * settings.shortest / self.longest;
+        let bound = 2f64.powf(0.5 * f64::from(power)) * settings.tolerance * settings.shortest / self.longest;
         // The shortest one is allowed whatever it crosses.
-        let mut steps = vec![0; self.ranges.len()];
+        let mut steps = vec![0; self.coded.len()];
         for reach in reaches {
             let greatest = self.response.greatest(bound / reach.step);
             let allowed: Vec<Code> = self.coded.par_iter().map(|range| greatest.of(*range)).collect();
@@ -229,7 +228,7 @@ impl Parts {
                 }
             });
         }
-        let mut made = Importance { cells: self.cells, steps, slack, error: 0.0 };
+        let mut made = Importance { cells: self.cells, steps, error: 0.0 };
         made.error = look.most(|ray| march(scene, &made, &look.medium, ray));
         made
     }

@@ -16,7 +16,7 @@ const CODES: usize = 256;
 /// The greatest opacity of a reference length whose extinction is told apart from others: what is beyond it ends rays within a step.
 const DENSEST: f64 = 1.0 - 1e-4;
 
-/// The transfer function over the values that the field has.
+/// The transfer function over the values that the field has, as far as it changes among them.
 pub struct Response {
     low: f64,
     width: f64,
@@ -29,7 +29,9 @@ pub struct Greatest(Vec<Code>);
 
 impl Response {
     pub fn of(scene: &Scene) -> Self {
-        let [low, high] = scene.field.extremes().map(f64::from);
+        let knots = scene.transfer.knots();
+        // Beyond its first and its last point a transfer function stays as it is.
+        let [low, high] = scene.field.extremes().map(|x| f64::from(x).clamp(knots[0].x, knots[knots.len() - 1].x));
         let width = (high - low).max(f64::MIN_POSITIVE);
         let place = |node: usize| low + width * node as f64 / (NODES - 1) as f64;
         let changed = (1..NODES).scan(0.0, |sum, node| {
