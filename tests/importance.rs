@@ -153,7 +153,9 @@ fn four_methods_take_adaptive_steps_and_no_mesh_does() {
         ("--filter", |settings| settings.sampling.filter = Filter::Nearest),
         ("--offset", |settings| settings.sampling.offset = Offset::Midpoint),
         ("[surface]", |settings| settings.surface.iso = Some(90.0)),
-        ("[[light]]", |settings| settings.lights = vec![LightSettings::default()]),
+        ("[[light]]", |settings| {
+            settings.lights = vec![LightSettings { direction: Some([1.0, 2.0, 3.0]), ..LightSettings::default() }];
+        }),
     ];
     for (what, change) in refused {
         let error = plan::check(&scene("shells:12", change)).unwrap_err().to_string();
