@@ -24,6 +24,7 @@ pub mod runner;
 pub mod saving;
 pub mod statistics;
 pub mod timing;
+pub mod view;
 mod warnings;
 pub mod write;
 

@@ -16,6 +16,7 @@ use super::picture::Picture;
 use super::record::{CountsRecord, EffectRecord, FORMAT, Ideal, LeftOutRecord, Run, TextureRecord};
 use super::saving;
 use super::timing::Timing;
+use super::view::view_in_words;
 use super::warnings::warnings;
 use crate::auto::AutoRecord;
 use crate::error::{Error, Result};
@@ -394,16 +395,4 @@ pub(crate) fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()
 /// A twin's frame in f32.
 fn single(frame: &CpuFrame, size: [u32; 2]) -> Result<Picture> {
     Picture::new(size, frame.pixels.iter().map(|p| p.map(|c| c as f32)).collect())
-}
-
-/// The camera in words, for tables.
-pub fn view_in_words(scene: &Scene) -> String {
-    let camera = &scene.settings.camera;
-    let list = |v: &[f64; 3]| v.map(|c| format!("{}", (c * 1e4).round() / 1e4)).join(",");
-    let [width, height] = scene.settings.image.size;
-    let lens = match camera.height {
-        None => format!("fov {}", camera.fov_y),
-        Some(high) => format!("orthographic, {high} high"),
-    };
-    format!("eye {}, target {}, {lens}, {width}x{height}", list(&camera.eye), list(&camera.target))
 }

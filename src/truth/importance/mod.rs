@@ -53,7 +53,7 @@ pub struct Importance {
 /// The bit that is set where nothing shows all along the step, in any direction.
 pub const NOTHING_SHOWS: u8 = 0x80;
 
-/// Bounds that are tried at the most: each takes about as long as all else, and four to six are usual.
+/// Bounds that are tried at the most: a try makes the whole volume anew, and the step to the next bound is taken from its error.
 const TRIES: usize = 10;
 
 /// The first bound tried is this power of the root of two times the one of the worst case: that of real volumes was 2^9 to 2^14 times it.
