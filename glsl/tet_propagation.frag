@@ -7,7 +7,9 @@
 // blend unit, so that they need no copy in passes that find no cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [ORTHOGRAPHIC]
+//
+// ENTERS: the first pass behind a layer, to which rays come from outside of the mesh. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
+//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME], [ENTERS]
 
 #include "shared/tet_cell.glsl"
 #include "shared/cull.glsl"
@@ -60,7 +62,11 @@ void main() {
             Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
             Way way = way_into(line, uint(here.x) - 1u, uint(here.y), texelFetch(tet_point, texel, 0).xy);
             Way next = leave(line, way);
-            gathered = cell_light(line, way.at, next.at);
+#ifdef ENTERS
+            gathered = cell_light(line, way, next, true);
+#else
+            gathered = cell_light(line, way, next, false);
+#endif
             next_point = next.at;
             if (next.side != NOTHING) {
                 next_cell = vec2(float((next.side - 1u) >> 2) + 1.0, float((next.side - 1u) & 3u));

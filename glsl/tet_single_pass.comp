@@ -1,10 +1,10 @@
 // Ray casting of a mesh of tetrahedra as a compute shader: a ray an invocation, in tiles of 8 x 8 pixels.
 //
-// GOES_ON: the ray goes on with what RES holds. RGBA32F, RGBA16F, RGBA8: the format of RES.
+// GOES_ON: the ray goes on with what RES holds. SURFACE: iso-surfaces show; IN_VOLUME: within colours. RGBA32F, RGBA16F, RGBA8: the format of RES.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes RGBA32F | RGBA16F | RGBA8
-//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME]
 
 #define COMPUTE
 #include "shared/tet_loop.glsl"

@@ -1,10 +1,10 @@
 // Ray casting of a mesh of tetrahedra in one pass: the loop of the ray propagation in a fragment shader, for each time that a ray enters
 // the mesh [Weiler03 "Ray Propagation Approach", Stegmaier05 §3].
 //
-// GOES_ON: the ray goes on with what RES holds.
+// GOES_ON: the ray goes on with what RES holds. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME]
 
 #include "shared/tet_loop.glsl"
 

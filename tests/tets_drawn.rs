@@ -1,13 +1,16 @@
 //! Pictures of meshes of tetrahedra in f64: twins of all methods against the exact integral, closed forms, and the picture of the voxels
 //! that a mesh was cut of.
 
+use glam::DVec3;
+
 use depthleap::frame::{Structures, cpu};
 use depthleap::method::{TET_PROPAGATION, TET_SINGLE_PASS};
 use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
-use depthleap::scene::settings::{Classification, Settings};
+use depthleap::scene::light::{Light, LitPoint, lit};
+use depthleap::scene::settings::{Classification, Find, Settings, Shows, SurfaceLevel};
 use depthleap::scene::tetrahedra::builtin;
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Content, Scene};
@@ -90,6 +93,96 @@ fn the_sum_of_a_linear_field_is_that_of_its_ends() {
         });
         assert!((pixel[0] - rule).abs() < 1e-5 * rule.max(1.0), "pixel {i}: {} where {rule} is its sum", pixel[0]);
     }
+}
+
+/// Surfaces within cells: opaque, transparent, and within the colours of the mesh.
+const SURFACES: [(&str, Change); 3] = [
+    ("opaque", |s| s.surface.iso = Some(0.55)),
+    ("transparent", |s| s.surface.levels = [(0.3, 0.4), (0.52, 0.5), (0.7, 1.0)].map(level).to_vec()),
+    ("in the mesh", |s| {
+        s.surface.levels = [(0.45, 0.4), (0.7, 0.6)].map(level).to_vec();
+        s.surface.volume = true;
+    }),
+];
+
+fn level((iso, opacity): (f64, f64)) -> SurfaceLevel {
+    SurfaceLevel { iso, color: Some([0.9, iso, 0.3]), opacity }
+}
+
+#[test]
+fn twins_of_surfaces_are_the_exact_integral() {
+    for name in ["tets-cube:3", "tets-ball:3", "tets-torus:3"] {
+        for (view, of_view) in VIEWS {
+            for (surfaces, of_surfaces) in SURFACES {
+                let scene = scene(name, |s| {
+                    of_view(s);
+                    of_surfaces(s);
+                });
+                let truth = exact(&scene);
+                assert!(truth.iter().any(|pixel| pixel[3] > 0.3), "{name}, {view}, {surfaces}: nothing shows");
+                for method in [&TET_SINGLE_PASS, &TET_PROPAGATION] {
+                    let off = apart(&twin(&scene, method), &truth);
+                    assert!(off < 2e-6, "{name}, {view}, {surfaces}, {}: {off:e}", method.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_surfaces_within_cells_cannot_be_is_refused_by_name() {
+    let cases: [(&str, Change); 4] = [
+        ("--find range", |s| s.surface.find = Find::Range),
+        ("--surface-shows", |s| s.surface.shows = Shows::Normal),
+        ("[effects]", |s| s.effects.shadows = true),
+        ("--projection mip", |s| s.projection.kind = MIP.name()),
+    ];
+    for (input, change) in cases {
+        let scene = scene("tets-ball:2", |s| {
+            s.surface.iso = Some(0.5);
+            change(s);
+        });
+        let message = plan(&scene, None).unwrap_err().to_string();
+        assert!(message.contains(input), "{message}");
+    }
+}
+
+/// The surface of a linear field is a plane, and what lies beyond it is solid to the faces of the mesh.
+#[test]
+fn the_surface_of_a_linear_field_is_a_plane() {
+    let color = [0.2, 0.6, 0.9];
+    let scene = scene("tets-cube:5", |s| {
+        s.surface.levels = vec![SurfaceLevel { iso: 0.6, color: Some(color), opacity: 1.0 }];
+        s.camera.eye = [-1.4, 0.7, 0.9];
+    });
+    let rays = scene.camera.rays(scene.settings.image.size).unwrap();
+    let headlight = [Light::headlight(&scene.camera)];
+    let (mut met, mut capped) = (0, 0);
+    for (i, pixel) in exact(&scene).iter().enumerate() {
+        let ray = rays.of(i as u32 % 31, i as u32 / 31);
+        let interval = depthleap::math::ray::box_interval(&ray, 0.5 * scene.field.extent(), rays.near);
+        let value = |depth: f64| ray.at(depth).element_sum() / 3.0 + 0.5;
+        let rule = interval.and_then(|(enter, leave)| {
+            let (first, last) = (value(enter), value(leave));
+            if (first - 0.6).abs() < 1e-5 || (last - 0.6).abs() < 1e-5 {
+                return None;
+            }
+            let at = enter + (0.6 - first) / (last - first) * (leave - enter);
+            let depth = if first >= 0.6 { Some(enter) } else { (last >= 0.6).then_some(at) };
+            (met, capped) = (met + u32::from(depth.is_some()), capped + u32::from(first >= 0.6));
+            let view = -ray.direction.normalize();
+            let shown = |depth| lit(color, &headlight, &LitPoint { place: ray.at(depth), normal: DVec3::ONE, view });
+            Some(depth.map_or([0.0; 4], |depth| {
+                let [r, g, b] = shown(depth);
+                [r, g, b, 1.0]
+            }))
+        });
+        if let Some(rule) = rule {
+            let off = (0..4).map(|c| (pixel[c] - rule[c]).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-5, "pixel {i}: {pixel:?} where the plane shows {rule:?}");
+        }
+    }
+    assert!(capped > 20 && met > capped + 10, "{met} rays meet it, {capped} begin behind it");
 }
 
 /// Constant opacity over a way: 1 - (1 - alpha)^way.

@@ -28,7 +28,8 @@ struct Line {
     // That axis, and whether the direction points down it.
     int axis;
     bool down;
-    // The length of the direction.
+    // The direction, volume space, and its length.
+    vec3 direction;
     float stretch;
 };
 
@@ -69,6 +70,7 @@ Line line_through(vec2 pixel) {
     precise vec2 shear = vec2(df_divide(first, along).x, df_divide(second, along).x);
     line.shear = line.down ? shear.yx : shear;
     line.along = along.x;
+    line.direction = direction;
     line.stretch = df_sqrt(square).x;
     return line;
 }

@@ -27,11 +27,13 @@ vec4 through_cells(Line line, vec4 entered, vec4 held) {
     Entrance entrance = entrance_by(line, uint(max(entered.y, 1.0)) - 1u);
     Way way = entrance.way;
     way.side = entered.y > 0.0 && !any(entrance.lefts) ? way.side : NOTHING;
+    bool enters = true;
     // No ray goes through more cells than there are.
     for (int left_over = tet_codes.list.length(); left_over > 0 && way.side != NOTHING && !IS_ENDED(held); --left_over) {
         Way next = leave(line, way);
-        held = joined(held, cell_light(line, way.at, next.at));
+        held = joined(held, cell_light(line, way, next, enters));
         way = next;
+        enters = false;
     }
     return held;
 }

@@ -2,7 +2,9 @@
 
 use super::classification::CLASSIFICATION;
 use super::colors::COLORS;
+use super::surface::{ISO_SURFACE, SURFACES_IN_VOLUME};
 use super::transfer_function::{FEW_PIECES, TRANSFER_FUNCTION};
+use super::{light_paths, lights};
 use crate::error::{Error, Result};
 use crate::part::Constant;
 use crate::part::resource::Resource;
@@ -10,18 +12,19 @@ use crate::part::rows::{Context, Feature};
 use crate::projection::{self, AVERAGE};
 use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Alpha, Filter};
+use crate::scene::settings::{Alpha, Filter, Find, Shows};
 
 /// The features that ways through cells are classified by.
 const OF_CELLS: [&Feature; 4] = [&CLASSIFICATION, &COLORS, &TRANSFER_FUNCTION, &FEW_PIECES];
 
-/// Specialization constants of what classifies ways through cells.
+/// Specialization constants of what ways through cells bring.
 pub fn constants(context: &Context) -> Vec<Constant> {
-    if !context.has(&CLASSIFICATION) || context.scene.has_cell_table() {
-        return Vec::new();
+    let mut constants = Vec::new();
+    if context.has(&CLASSIFICATION) && !context.scene.has_cell_table() {
+        constants.extend(OF_CELLS.into_iter().flat_map(|feature| (feature.constants)(context)));
+        constants.push(one_color(context));
     }
-    let mut constants: Vec<Constant> = OF_CELLS.into_iter().flat_map(|feature| (feature.constants)(context)).collect();
-    constants.push(one_color(context));
+    constants.extend(context.has(&ISO_SURFACE).then(|| lights::white_lights(context)));
     constants
 }
 
@@ -32,20 +35,35 @@ pub fn one_color(context: &Context) -> Constant {
     ("ONE_COLOR", u32::from(one_color))
 }
 
-/// What it reads.
+/// What ways through cells read.
 pub fn reads(context: &Context) -> Vec<Resource> {
-    if context.scene.has_cell_table() {
-        return vec![resource::TET_TABLE];
+    let mut reads = match context.scene.has_cell_table() {
+        true => vec![resource::TET_TABLE],
+        false => classified_by(context).flat_map(|feature| (feature.reads)(context)).collect(),
+    };
+    if context.has(&ISO_SURFACE) {
+        reads.extend([resource::SURFACE_LEVELS, lights::lights(context)]);
     }
-    OF_CELLS.into_iter().filter(|feature| context.has(feature)).flat_map(|feature| (feature.reads)(context)).collect()
+    reads
 }
 
-/// The defines of shaders that classify ways through cells.
+fn classified_by(context: &Context) -> impl Iterator<Item = &'static Feature> {
+    OF_CELLS.into_iter().filter(|feature| context.has(feature))
+}
+
+/// The defines of shaders that go through cells.
 pub fn defines(context: &Context) -> Vec<&'static str> {
-    if context.scene.has_cell_table() {
-        return vec!["TABLE"];
+    let mut defines: Vec<&str> =
+        [ISO_SURFACE.define(context), SURFACES_IN_VOLUME.define(context)].into_iter().flatten().collect();
+    match context.scene.has_cell_table() {
+        true => defines.push("TABLE"),
+        // Surfaces alone have neither colours nor values.
+        false if context.has(&ISO_SURFACE) => {
+            defines.extend(classified_by(context).filter_map(|feature| feature.define(context)));
+        }
+        false => defines.extend(OF_CELLS.into_iter().filter_map(|feature| feature.define(context))),
     }
-    OF_CELLS.into_iter().filter_map(|feature| feature.define(context)).collect()
+    defines
 }
 
 /// Takes volumes of voxels.
@@ -63,7 +81,7 @@ pub fn takes_voxels(scene: &Scene) -> Result<()> {
     }
 }
 
-/// Takes a mesh of cells with nothing in it or around it: colours, extremes and sums of its values.
+/// Takes a mesh of cells with nothing in it or around it but iso-surfaces and their lights: colours, extremes and sums of its values.
 ///
 /// # Errors
 /// When the scene shows voxels, or asks for what there is of voxels alone.
@@ -91,19 +109,18 @@ pub fn takes_cells(scene: &Scene) -> Result<()> {
         () if !scene.clip_planes().is_empty() || scene.clip_volume.is_some() => {
             refused("[[clip]] (--clip-plane)", "cuts volumes of voxels, and this is a mesh of cells", "leave it out")
         }
-        () if scene.surface.is_some() || settings.shells.mode.is_some() => refused(
-            "[surface], [shells] (--iso, --shells)",
-            "show surfaces between voxels, and this is a mesh of cells",
-            "leave them out",
+        () if settings.shells.mode.is_some() => refused(
+            "[shells] (--shells)",
+            "shows polygons made between voxels, and this is a mesh of cells",
+            "use --iso, which is sought along rays, or leave it out",
         ),
-        () if !scene.lights.is_empty() => {
-            refused("[[light]]", "shines on gradients of voxels, and this is a mesh of cells", "leave it out")
-        }
-        () if scene.environment.is_some() || scene.effect.is_some() || scene.backdrop.is_some() => refused(
-            "[environment], [effects]",
-            "are of samples and surfaces between voxels, and this is a mesh of cells",
-            "leave them out",
+        () if scene.surface.is_some() => takes_surfaces(scene),
+        () if !scene.lights.is_empty() => refused(
+            "[[light]]",
+            "shines on samples by the gradients of voxels, and this is a mesh of cells",
+            "add an iso-surface (--iso VALUE, or [surface]) that it shines on, or leave it out",
         ),
+        () if asks_for_effects(scene) => refused(EFFECTS, EFFECTS_REFUSED, "leave them out"),
         () if projection::of(settings).name == AVERAGE.name => refused(
             "projection.kind (--projection average)",
             "divides by the length of the ray, which of one through a mesh is known at its end alone",
@@ -123,6 +140,36 @@ pub fn takes_cells(scene: &Scene) -> Result<()> {
             "sampling.classification (--classification pre-integrated)",
             "makes colours of values, and this projection shows values",
             "use --projection composite, or --classification post",
+        ),
+        () => Ok(()),
+    }
+}
+
+const EFFECTS: &str = "[environment], [effects]";
+
+const EFFECTS_REFUSED: &str = "are of samples and surfaces between voxels, and this is a mesh of cells";
+
+fn asks_for_effects(scene: &Scene) -> bool {
+    scene.environment.is_some() || scene.effect.is_some() || scene.backdrop.is_some()
+}
+
+/// Whether iso-surfaces within cells can be drawn as a scene asks.
+fn takes_surfaces(scene: &Scene) -> Result<()> {
+    let settings = &scene.settings;
+    let refused = |input: &str, why: &str, remedy: &str| Err(Error::usage(input, why, remedy));
+    match () {
+        () if asks_for_effects(scene) || light_paths::asked(scene).is_some() => {
+            refused(EFFECTS, EFFECTS_REFUSED, "leave them out")
+        }
+        () if settings.surface.find == Find::Range => refused(
+            "surface.find (--find range)",
+            "asks for places with a value in a range, and rays meet surfaces within cells where they cross their values",
+            "use crossing",
+        ),
+        () if settings.surface.shows != Shows::Color => refused(
+            "surface.shows (--surface-shows)",
+            "asks for places or normals between voxels, and this is a mesh of cells",
+            "show colours",
         ),
         () => Ok(()),
     }

@@ -19,7 +19,7 @@ pub const GRADIENT_TEXTURE: Feature = Feature {
 };
 
 fn needed(context: &Context) -> Result<(), Why> {
-    let there = context.has(&LIT_SAMPLES) || is_drawn(context);
+    let there = context.has(&LIT_SAMPLES) || is_drawn(context) && !context.method.goes_through_cells();
     match (context.scene.settings.shading.gradients, there && context.scene.reads_gradients()) {
         (Gradients::Precomputed, true) => Ok(()),
         (Gradients::Precomputed, false) if context.scene.effect.is_some() => {

@@ -78,7 +78,7 @@ pub fn check_passes(scene: &Scene) -> Result<()> {
 }
 
 /// The setting that asks for something.
-fn asked(scene: &Scene) -> Option<&'static str> {
+pub(super) fn asked(scene: &Scene) -> Option<&'static str> {
     let effects = &scene.settings.effects;
     match () {
         () if effects.shadows => Some("effects.shadows (--shadows)"),

@@ -11,6 +11,7 @@ use crate::scene::settings::{Accumulate, Filter, Find, Offset, Refine, Shows};
 
 /// Iso-surfaces that rays look for in place of colours [KW03 §2.2, Thesis ch. 5 §3.2].
 pub const ISO_SURFACE: Feature = Feature {
+    of_cells: true,
     with: Some("SURFACE"),
     reads: |_| vec![resource::SURFACE_LEVELS],
     ..Feature::at(Hook::Sample, "iso-surface", |context| if is_drawn(context) { Ok(()) } else { Err(Why::Untold) })
@@ -34,6 +35,7 @@ pub const TRANSPARENT_SURFACES: Feature = Feature {
 
 /// Surfaces within the colours of the volume [Stegmaier05 §6].
 pub const SURFACES_IN_VOLUME: Feature = Feature {
+    of_cells: true,
     with: Some("IN_VOLUME"),
     ..Feature::at(Hook::Sample, "surfaces in the volume", |context| {
         match context.has(&ISO_SURFACE) && context.scene.surfaces_in_volume() {
@@ -45,7 +47,7 @@ pub const SURFACES_IN_VOLUME: Feature = Feature {
 
 /// What rays gather: colours, or places on a surface that is lit afterwards.
 pub fn gathered(context: &Context) -> Resource {
-    match context.has(&ISO_SURFACE) && !context.method.loops() {
+    match context.scene.ends_at_surfaces() && context.has(&ISO_SURFACE) && !context.method.loops() {
         true => resource::SURFACE_HIT,
         false => resource::ACCUMULATED,
     }
@@ -86,6 +88,8 @@ pub fn check(scene: &Scene) -> Result<()> {
     }
     let sampling = &settings.sampling;
     match () {
+        // Those within cells have checks of their own (cells.rs).
+        () if scene.tetrahedra.is_some() && row.name == COMPOSITE.name => Ok(()),
         () if row.name != COMPOSITE.name => {
             let input = format!("projection.kind (--projection {})", row.name);
             refuse(&input, "shows values, and a surface is where one is, not how large", "use composite with surfaces")

@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::single_pass::compute_format;
 use super::{constants, cull};
-use crate::feature::{EARLY_ENDS, ORTHOGRAPHIC, cells};
+use crate::feature::{EARLY_ENDS, ISO_SURFACE, ORTHOGRAPHIC, cells};
 use crate::geometry::{BOUNDARY, SCREEN};
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
@@ -153,6 +153,7 @@ pub fn propagate(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
     accesses.extend([resource::TET_CELL, resource::TET_POINT].map(|set| Usage::Color.of(set.at(to))));
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
     draw.define(cells::defines(context));
+    draw.define((pass == 0 && context.has(&ISO_SURFACE)).then_some("ENTERS"));
     draw.define(ORTHOGRAPHIC.define(context));
     draw.specialize(cells::constants(context));
     draw.specialize([constants::projection(context)]);

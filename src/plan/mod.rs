@@ -203,7 +203,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     // The frame's list has room for them.
     let mut steps = frame;
     steps.splice(0..0, before);
-    let reads_volume = method.takes_samples() || scene.surface.is_some();
+    let reads_volume = method.takes_samples() || scene.surface.is_some() && !method.goes_through_cells();
     let texture = (method.on_device && passes > 0 && reads_volume).then(|| {
         let volume = TextureChoice::of(scene);
         TextureChoice { error: volume.error.max(scene.error_beside()), ..volume }

@@ -64,8 +64,8 @@ impl Shown {
 /// The values that are on surfaces, or that rays cross where they go on behind them.
 fn on_surfaces(scene: &Scene, map: TextureMap) -> Vec<[f64; 2]> {
     let mut values = surface_values(scene, map);
-    // Within such a surface there is nothing, unless a clip volume cuts it open.
-    if scene.sees_through_surfaces() && scene.clip_volume.is_none() {
+    // Within such a surface there is nothing, unless a clip volume or the end of a mesh cuts it open.
+    if scene.sees_through_surfaces() && scene.clip_volume.is_none() && scene.tetrahedra.is_none() {
         values.iter_mut().for_each(|[from, to]| *to = *from);
     }
     apart(values)

@@ -64,9 +64,10 @@ impl Scene {
     }
 
     /// Whether rays gather the colours of surfaces that they cross: of those that let something through, and of all that stand within
-    /// the colours of the volume.
+    /// the colours of the volume, or within the cells of a mesh.
     pub fn sees_through_surfaces(&self) -> bool {
-        self.surface.as_ref().is_some_and(Surface::is_transparent) || self.surfaces_in_volume()
+        let crosses = |surface: &Surface| surface.is_transparent() || self.tetrahedra.is_some();
+        self.surface.as_ref().is_some_and(crosses) || self.surfaces_in_volume()
     }
 
     /// Whether surfaces are drawn with the volume's colours.

@@ -3,6 +3,7 @@
 mod adaptive;
 pub mod backdrop;
 pub mod block_skip;
+mod cell_surface;
 pub mod clip_begin;
 mod clip_volume;
 pub mod clip_winding;

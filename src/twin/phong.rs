@@ -41,17 +41,25 @@ impl Twin<'_> {
         let voxel = self.voxel(position);
         let (normal, off) = self.gradient_at(voxel);
         let point = LitPoint { place: (position - 0.5) * field.extent(), normal, view: -pixel.direction };
+        // How far the normal may be off, as an angle; one of no length at all has none.
+        let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
+        let mut shaded = self.shaded_point(&point, angle, color, lights);
+        shaded.turns |= normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(voxel);
+        shaded
+    }
+
+    /// The same of a point whose normal may be off by an angle.
+    pub(super) fn shaded_point(&self, point: &LitPoint, angle: f64, color: [f64; 3], lights: &[Light]) -> Shaded {
+        let normal = point.normal;
         let (mut unsure, mut less) = (false, 0.0);
         let through = self.scene.translucency().map_or(0.0, |translucency| translucency.part);
-        let shaded = lit_by(color, lights, &point, through, |light| {
-            let found = self.arriving(light, &point);
+        let shaded = lit_by(color, lights, point, through, |light| {
+            let found = self.arriving(light, point);
             unsure |= found.unsure;
             less += found.rounding * brightest_of(std::array::from_fn(|c| color[c] * light.diffuse[c]));
             found.arriving
         });
-        // How far the normal may be off, as an angle; one of no length at all has none.
-        let angle = if normal == DVec3::ZERO { 0.0 } else { off.length() / normal.length() };
-        let mut turns = unsure || normal == DVec3::ZERO && off.max_element() > 0.0 && !self.is_flat(voxel);
+        let mut turns = unsure;
         let mut rounding: f64 = less;
         for light in lights {
             let shown = brightest_of(std::array::from_fn(|c| color[c] * light.diffuse[c]));
@@ -65,7 +73,7 @@ impl Twin<'_> {
             let steepest = light.shininess.sqrt().max(1.0);
             let specular = steepest * angle + light.shininess * COSINE_ROUNDING + POWER_ROUNDING;
             rounding += angle.min(2.0) * shown + brightest_of(light.specular) * specular.min(1.0);
-            turns |= normal != DVec3::ZERO && angle > 0.0 && self.turns(light, &point, angle);
+            turns |= normal != DVec3::ZERO && angle > 0.0 && self.turns(light, point, angle);
         }
         let brightest = brightest_of(shaded);
         Shaded { color: shaded, rounding: 2.0 * rounding + COLOR_ROUNDING * brightest, normal, angle, turns }

@@ -15,7 +15,7 @@ const BESIDE_EDGE: f64 = 2e-6;
 const NEARLY_OPAQUE: f64 = 0.5;
 
 /// What single precision takes from a value, in x.
-const VALUE_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+pub(super) const VALUE_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
 /// A ray on its way through cells: the side by which it enters one, and where.
 pub type CellState = (u32, FacePoint);
@@ -68,19 +68,19 @@ pub fn update(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
 }
 
 /// Goes through the current cell.
-pub fn propagate(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
+pub fn propagate(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
     let Some(((mesh, line), (side, from))) = twin.mesh_and_line(pixel).zip(pixel.cell) else { return Effect::Silent };
     let Some((leaves, to)) = mesh.leave(&line, side) else { return Effect::Silent };
     pixel.undecided |= beside_edge(mesh, &line, leaves);
     let before = pixel.accumulated;
-    twin.through(pixel, CellWay { cell: side / 4, from, to });
+    twin.through(pixel, CellWay { cell: side / 4, from, to, begins: pass == 0 });
     let next = mesh.across[leaves as usize / 4][leaves as usize % 4];
     pixel.cell = (next != NOTHING).then_some((next, to));
     if pixel.accumulated == before { Effect::Silent } else { Effect::Contributed }
 }
 
 /// Whether a line passes an edge of a face so near that single precision may see it on the other side.
-fn beside_edge(mesh: &Tetrahedra, line: &Line, side: u32) -> bool {
+pub(super) fn beside_edge(mesh: &Tetrahedra, line: &Line, side: u32) -> bool {
     let corners = mesh.face(line, side);
     (0..3).any(|i| {
         let (a, b) = (&corners[i], &corners[(i + 1) % 3]);
@@ -90,7 +90,7 @@ fn beside_edge(mesh: &Tetrahedra, line: &Line, side: u32) -> bool {
 }
 
 impl Twin<'_> {
-    fn mesh_and_line(&self, pixel: &Pixel) -> Option<(&Tetrahedra, Line)> {
+    pub(super) fn mesh_and_line(&self, pixel: &Pixel) -> Option<(&Tetrahedra, Line)> {
         let ray = self.rays.of(pixel.column, pixel.row);
         Some((self.scene.tetrahedra.as_deref()?, Line::new(ray.origin, ray.direction)))
     }
@@ -122,11 +122,19 @@ impl Twin<'_> {
 
     /// Joins what a way through a cell brings.
     fn through(&self, pixel: &mut Pixel, way: CellWay) {
-        let Some(CellWay { from, to, .. }) = way.behind(self.rays.near) else { return };
+        let Some(way) = way.behind(self.rays.near) else { return };
+        if self.scene.surface.is_some() {
+            return self.through_surfaces(pixel, &way);
+        }
+        pixel.accumulated = self.projection.blend.apply(pixel.accumulated, self.cell_light(pixel, way.from, way.to));
+    }
+
+    /// What the way between two places within a cell brings.
+    pub(super) fn cell_light(&self, pixel: &mut Pixel, from: FacePoint, to: FacePoint) -> [f64; 4] {
         let ray = self.rays.of(pixel.column, pixel.row);
         let lengths = (to.depth - from.depth).max(0.0) * ray.direction.length()
             / (self.scene.transfer.reference * self.scene.field.finest());
-        let light = match (&self.projection.values, self.cell_table) {
+        match (&self.projection.values, self.cell_table) {
             (None, Some(table)) => table.between(from.value, to.value, lengths),
             (None, None) => {
                 let ramp = |by: f64| {
@@ -148,7 +156,6 @@ impl Twin<'_> {
                     blend => blend.apply(part(from.value), part(to.value)),
                 }
             }
-        };
-        pixel.accumulated = self.projection.blend.apply(pixel.accumulated, light);
+        }
     }
 }

@@ -15,7 +15,8 @@ use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Last, LightSettings, Mapping,
-    MeshSettings, Offset, PartialSegments, Refine, Settings, ShellMode, ShellSum, Shows, Translucency, VolumeTexture,
+    MeshSettings, Offset, PartialSegments, Refine, Settings, ShellMode, ShellSum, Shows, SurfaceLevel, Translucency,
+    VolumeTexture,
 };
 use depthleap::scene::{Backdrop, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
@@ -29,7 +30,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 89] = [
+const KINDS: [(&str, Change); 91] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -126,6 +127,15 @@ const KINDS: [(&str, Change); 89] = [
         let point =
             |i: u32| [f64::from(i) / 24.0, 0.04 * f64::from(i), 0.5, 0.2, if i.is_multiple_of(5) { 0.0 } else { 0.3 }];
         s.transfer.points = Some((0..=24).map(point).collect());
+    }),
+    ("a surface of cells in light", |s| {
+        (s.volume.builtin, s.surface.iso) = (Some("tets-torus:1".to_owned()), Some(0.5));
+    }),
+    ("surfaces of cells within their colours, by a table of ways", |s| {
+        s.volume.builtin = Some("tets-ball:1".to_owned());
+        (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 9);
+        s.surface.volume = true;
+        s.surface.levels = vec![SurfaceLevel { opacity: 0.4, ..level(0.5, [0.9, 0.6, 0.3]) }];
     }),
     // Steps of lengths that many places allow, and more passes than rays need.
     ("adaptive steps", |s| {

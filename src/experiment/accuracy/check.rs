@@ -44,7 +44,7 @@ pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
 /// # Errors
 /// When it has none, or cannot be.
 pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
-    if scene.sees_through_surfaces() {
+    if scene.sees_through_surfaces() && scene.tetrahedra.is_none() {
         return Err(Error::usage(
             "surface",
             "has surfaces that rays go on behind, and accuracy holds the one that a ray meets against its root",

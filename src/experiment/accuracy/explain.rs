@@ -87,6 +87,7 @@ pub fn remarks_on_all(scene: &Scene) -> Vec<String> {
     // Cells have lengths of their own.
     let mut remarks: Vec<String> = scene.tetrahedra.is_none().then(segments).into_iter().collect();
     let surface = match (&scene.surface, scene.polygons.show()) {
+        _ if scene.tetrahedra.is_some() => None,
         (None, _) => None,
         (Some(_), false) => Some(
             "Places, normals and colours are root mean squares over the pixels in which a ray meets the sheet of the surface that the exact \
@@ -109,7 +110,7 @@ pub fn remarks(scene: &Scene, method: MethodName, opaque: bool) -> Vec<String> {
             remarks.push(words.to_owned());
         }
     };
-    if scene.surface.is_some() {
+    if scene.surface.is_some() && scene.tetrahedra.is_none() {
         say(
             true,
             "a surface whose values lie between two samples alone is not seen, and the ray meets the next one: such pixels are off by a \

@@ -31,12 +31,13 @@ pub struct ExactSurface {
 }
 
 impl ExactSurface {
-    /// None of a scene without a surface, and of one with polygons, whose colours no place and no normal can be blended with.
+    /// None of a scene without a surface, of one with polygons, whose colours no place and no normal can be blended with, and of a mesh of
+    /// cells, in which rays meet surfaces where the exact ones do.
     ///
     /// # Errors
     /// When no ray meets the surface, so that there is nothing to hold against it.
     pub fn of(scene: &Scene) -> Result<Option<Self>> {
-        if scene.surface.is_none() || scene.polygons.show() {
+        if scene.surface.is_none() || scene.polygons.show() || scene.tetrahedra.is_some() {
             return Ok(None);
         }
         let shown = |shows: Shows| {

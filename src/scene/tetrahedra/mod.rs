@@ -7,11 +7,13 @@ pub mod cut;
 mod grid;
 mod longest;
 pub mod seen;
+mod surface;
 mod walk;
 
 pub use boundary::CellsView;
 pub use connect::{FACES, NOTHING};
 pub use grid::{Grid, one_of_each};
+pub use surface::{CellGradient, Met};
 pub use walk::{CellWay, Entry, FacePoint};
 
 use glam::DVec3;
@@ -115,6 +117,6 @@ impl CellWay {
         }
         let part = (near - from.depth) / (to.depth - from.depth);
         let value = from.value + part * (to.value - from.value);
-        (to.depth > near).then_some(Self { from: FacePoint { depth: near, value }, ..self })
+        (to.depth > near).then_some(Self { from: FacePoint { depth: near, value }, begins: true, ..self })
     }
 }

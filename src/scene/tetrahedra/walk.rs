@@ -18,6 +18,8 @@ pub struct CellWay {
     pub cell: u32,
     pub from: FacePoint,
     pub to: FacePoint,
+    /// Whether the line comes from outside of the mesh, or begins here.
+    pub begins: bool,
 }
 
 /// A face of the boundary by which a line enters.
@@ -71,6 +73,7 @@ impl Tetrahedra {
     pub fn chain(&self, line: &Line, entry: Entry) -> impl Iterator<Item = CellWay> {
         let (mut side, mut from) = (entry.side, entry.at);
         let mut left_over = self.cells.len();
+        let mut begins = true;
         std::iter::from_fn(move || {
             if side == NOTHING || left_over == 0 {
                 return None;
@@ -78,7 +81,8 @@ impl Tetrahedra {
             // A chain has no cell twice.
             left_over -= 1;
             let (leaves, to) = self.leave(line, side)?;
-            let way = CellWay { cell: side / 4, from, to };
+            let way = CellWay { cell: side / 4, from, to, begins };
+            begins = false;
             (side, from) = (self.across[leaves as usize / 4][leaves as usize % 4], to);
             Some(way)
         })

@@ -6,7 +6,7 @@ use depthleap::method::{TET_PROPAGATION, TET_SINGLE_PASS, TET_SINGLE_PASS_COMPUT
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
 use depthleap::scene::Scene;
-use depthleap::scene::settings::{Classification, Settings};
+use depthleap::scene::settings::{Classification, LightSettings, Settings, SurfaceLevel};
 use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
@@ -31,7 +31,7 @@ const VIEWS: [(&str, Change); 4] = [
 ];
 
 /// Meshes, and what is made of them.
-const MESHES: [(&str, Change); 6] = [
+const MESHES: [(&str, Change); 8] = [
     ("tets-cube:8", |_| {}),
     ("tets-ball:5", |s| {
         s.transfer.preset = None;
@@ -48,6 +48,18 @@ const MESHES: [(&str, Change); 6] = [
     ("tets-ball:4", |s| s.projection.kind = XRAY.name()),
     ("tets-cube:5", |s| {
         (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 17);
+    }),
+    ("tets-cube:6", |s| {
+        s.surface.iso = Some(0.55);
+        s.sampling.termination = 0.95;
+    }),
+    ("tets-ball:6", |s| {
+        s.surface.volume = true;
+        // One at the eye would be in the very place of what rays begin within, and one along axes in the plane of a face.
+        s.lights = vec![LightSettings { direction: Some([1.0, 2.1, 3.4]), ..LightSettings::default() }];
+        s.surface.levels = [(0.35, 0.3), (0.6, 0.6), (0.8, 1.0)]
+            .map(|(iso, opacity)| SurfaceLevel { iso, color: Some([0.9, iso, 0.3]), opacity })
+            .to_vec();
     }),
 ];
 
@@ -66,6 +78,10 @@ pub fn tests() -> Vec<Test> {
                 })
             };
             let (mesh, size) = name.split_once(':').unwrap_or((name, ""));
+            // Which of the cells beside a face a ray goes through is open there, and with it the normal of a surface.
+            if view == "along_faces" && scene().surface.is_some() {
+                continue;
+            }
             let one = test(&format!("tetrahedra::{mesh}_{size}_{view}"), move |device| all_methods(device, &scene()));
             tests.push(one.needs(Need::Turn(number + turn)));
         }
