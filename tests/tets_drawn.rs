@@ -131,7 +131,8 @@ fn twins_of_surfaces_are_the_exact_integral() {
 
 #[test]
 fn what_surfaces_within_cells_cannot_be_is_refused_by_name() {
-    let cases: [(&str, Change); 4] = [
+    let cases: [(&str, Change); 5] = [
+        ("--classification pre-integrated", |s| s.sampling.classification = Classification::PreIntegrated),
         ("--find range", |s| s.surface.find = Find::Range),
         ("--surface-shows", |s| s.surface.shows = Shows::Normal),
         ("[effects]", |s| s.effects.shadows = true),

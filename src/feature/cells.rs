@@ -161,6 +161,11 @@ fn takes_surfaces(scene: &Scene) -> Result<()> {
         () if asks_for_effects(scene) || light_paths::asked(scene).is_some() => {
             refused(EFFECTS, EFFECTS_REFUSED, "leave them out")
         }
+        () if scene.has_cell_table() && !scene.surfaces_in_volume() => refused(
+            "sampling.classification (--classification pre-integrated)",
+            "makes colours of ways through cells, and surfaces have one of their own",
+            "use post with surfaces, or draw them with the volume (--surface-volume)",
+        ),
         () if settings.surface.find == Find::Range => refused(
             "surface.find (--find range)",
             "asks for places with a value in a range, and rays meet surfaces within cells where they cross their values",

@@ -19,7 +19,8 @@ pub type CellIntegral = (String, Option<f64>, Vec<Option<u32>>);
 /// The exact integral, and tables of these nodes a side, each once, where there are colours to put into them.
 pub fn ways(scene: &Scene, sizes: &[u32]) -> Vec<CellIntegral> {
     let mut ways = vec![(String::new(), None, vec![None])];
-    if !projection::of(&scene.settings).shows_values() {
+    let colors = scene.surface.is_none() || scene.surfaces_in_volume();
+    if colors && !projection::of(&scene.settings).shows_values() {
         let mut sizes = sizes.to_vec();
         sizes.sort_unstable();
         sizes.dedup();
