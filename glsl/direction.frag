@@ -15,5 +15,6 @@ layout(location = 0) out vec4 direction;
 void main() {
     vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
     vec3 begin = texelFetch(entry, ivec2(gl_FragCoord.xy), 0).xyz;
-    direction = direction_from(pixel, box_interval(pixel), begin);
+    ViewRay ray = view_ray(pixel);
+    direction = direction_from(ray, box_interval(pixel, ray), begin);
 }

@@ -15,5 +15,6 @@ layout(location = 0) out vec4 entry;
 
 void main() {
     vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
-    entry = vec4(entry_at(pixel, box_interval(pixel)), 1.0);
+    ViewRay ray = view_ray(pixel);
+    entry = vec4(entry_at(ray, box_interval(pixel, ray)), 1.0);
 }

@@ -72,7 +72,7 @@ void main() {
     if (!shown) {
         discard;
     }
-    vec2 way = df_add(found.depth, -box_interval(pixel).enter);
+    vec2 way = df_add(found.depth, -box_interval(pixel, view_ray(pixel)).enter);
     surface = vec4(key, number, way.x * found.stretch, 0.0);
 #ifdef CLIPPED
     surface.w = state_behind(found);

@@ -11,6 +11,7 @@ use depthleap::read;
 use depthleap::scene::settings::{Cull, MethodName};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Settings, Volume};
+use depthleap::truth::exact::ExactIntegrator;
 
 fn scene(volume: &str, tf: &str, change: impl FnOnce(&mut Settings)) -> Scene {
     let mut settings = Settings::default();
@@ -316,4 +317,60 @@ fn methods_cull_as_they_are_asked_to() {
     let forms = |estimate: &depthleap::auto::Estimate| (row(&estimate.method).forms)();
     let weighed = chosen(&scene).weighed;
     assert!(!weighed.is_empty() && weighed.iter().all(|e| forms(e).iter().any(|form| form.cull == Cull::Ztest)));
+}
+
+/// The whole picture of what an error has chosen, in f64, and how far it is from the exact integral.
+fn error_of(scene: &Scene) -> f64 {
+    let mut scene = scene.clone();
+    scene.settings.method.name = method::CPU.name();
+    let plan = plan(&scene, None).expect("a plan");
+    let drawn = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
+    let rays = scene.camera.rays(scene.settings.image.size).unwrap();
+    let exact = ExactIntegrator::of(&scene).picture(&rays, scene.settings.image.size);
+    let off = |(a, b): (&[f64; 4], &[f64; 4])| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
+    drawn.pixels.iter().zip(&exact).map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn an_error_that_is_asked_for_is_met_by_longer_steps_the_larger_it_is() {
+    for (volume, tf) in [("jets:24", "ramp"), ("shells:24", "haze"), ("gaussian:20", "linear")] {
+        let mut steps = Vec::new();
+        for bound in [0.05, 1.0 / 255.0, 1e-3] {
+            let mut scene = scene(volume, tf, |s| s.sampling.error = Some(bound));
+            let record = settle(&mut scene, &DeviceFacts::default()).unwrap().expect("a record");
+            let error = record.error.expect("how it was chosen");
+            assert_eq!(error.step, scene.settings.sampling.step);
+            assert!(!scene.settings.method.name.is_auto());
+            let found = error_of(&scene);
+            assert!(found <= bound, "{volume}, {tf}: {found:e} where {bound} was asked for, {error:?}");
+            steps.push(error.step);
+        }
+        assert!(steps[0] > steps[2] && steps[0] >= steps[1] && steps[1] >= steps[2], "{volume}, {tf}: {steps:?}");
+    }
+}
+
+#[test]
+fn a_method_that_is_named_is_kept_and_given_settings_that_meet_the_error() {
+    let mut scene = scene("jets:24", "ramp", |s| {
+        (s.sampling.error, s.method.name) = (Some(0.01), method::RC_ERT.name());
+    });
+    let record = settle(&mut scene, &DeviceFacts::default()).unwrap().expect("a record");
+    assert_eq!((record.chosen.method.as_str(), scene.settings.method.name), ("rc-ert", method::RC_ERT.name()));
+    assert!(scene.settings.sampling.termination > 0.99 && record.error.is_some());
+    // What was asked for otherwise than by default stays.
+    scene.settings.sampling.step = 0.03;
+    let again = settle(&mut scene, &DeviceFacts::default()).unwrap().and_then(|record| record.error);
+    assert_eq!(again.map(|error| error.step), Some(0.03));
+}
+
+#[test]
+fn an_error_that_nothing_meets_is_refused() {
+    let refused = |change: fn(&mut Settings)| {
+        let mut scene = scene("jets:24", "ramp", change);
+        settle(&mut scene, &DeviceFacts::default()).unwrap_err().to_string()
+    };
+    let surface = refused(|s| (s.sampling.error, s.surface.iso) = (Some(1e-6), Some(90.0)));
+    assert!(surface.contains("is met by no step"), "{surface}");
+    let coarse = refused(|s| (s.sampling.error, s.sampling.step) = (Some(1e-4), 2.0));
+    assert!(coarse.contains("sampling.error"), "{coarse}");
 }

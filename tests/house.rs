@@ -29,7 +29,7 @@ const MAY_IMPORT: [(&str, &str); 27] = [
         "method",
         "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass",
     ),
-    ("auto", "error math scene projection structure part feature method plan"),
+    ("auto", "error math scene projection structure truth part feature method plan frame"),
     (
         "plan",
         "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method",

@@ -257,7 +257,9 @@ fn every_number_has_a_range_that_is_held() {
         // Absent by default: a list of numbers, a number, or a whole number.
         let like = default.unwrap_or(match name.as_str() {
             "volume.no_data" => Value::Array(vec![]),
-            "camera.height" | "volume.band" | "surface.iso" | "surface.iso_width" => Value::Float(0.0),
+            "camera.height" | "sampling.error" | "volume.band" | "surface.iso" | "surface.iso_width" => {
+                Value::Float(0.0)
+            }
             _ => Value::Integer(0),
         });
         let whole = matches!(&like, Value::Integer(_))

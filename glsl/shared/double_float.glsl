@@ -27,31 +27,40 @@ vec2 two_product(float a, float b) {
     return vec2(product, error);
 }
 
+// The sum of a number and one that is no larger.
+vec2 sum_of_smaller(float a, float b) {
+    precise float sum = a + b;
+    precise float error = b - (sum - a);
+    return vec2(sum, error);
+}
+
 vec2 df_add(vec2 a, vec2 b) {
     vec2 sum = two_sum(a.x, b.x);
     precise float low = sum.y + (a.y + b.y);
-    return two_sum(sum.x, low);
+    return sum_of_smaller(sum.x, low);
 }
 
 vec2 df_multiply(vec2 a, vec2 b) {
     vec2 product = two_product(a.x, b.x);
     precise float cross = a.x * b.y + a.y * b.x;
     precise float low = product.y + cross;
-    return two_sum(product.x, low);
+    return sum_of_smaller(product.x, low);
 }
 
 vec2 df_divide(vec2 a, vec2 b) {
-    float first = a.x / b.x;
-    vec2 rest = df_add(a, -df_multiply(vec2(first, 0.0), b));
-    float second = rest.x / b.x;
-    return two_sum(first, second);
+    precise float first = a.x / b.x;
+    vec2 product = two_product(first, b.x);
+    // The first difference is exact: the quotient is rounded once.
+    precise float rest = ((a.x - product.x) - product.y) + (a.y - first * b.y);
+    return sum_of_smaller(first, rest / b.x);
 }
 
 // Of a positive number: the root of the high part, and one step of Newton's for what it leaves.
 vec2 df_sqrt(vec2 a) {
-    float first = sqrt(a.x);
-    vec2 rest = df_add(a, -two_product(first, first));
-    return two_sum(first, rest.x / (2.0 * first));
+    precise float first = sqrt(a.x);
+    vec2 square = two_product(first, first);
+    precise float rest = ((a.x - square.x) - square.y) + a.y;
+    return sum_of_smaller(first, rest / (2.0 * first));
 }
 
 bool df_less(vec2 a, vec2 b) {

@@ -180,9 +180,10 @@ Ray ray_along(vec3 begin, vec4 unit) {
 Ray load_ray() {
 #ifdef OWN_RAYS
     vec2 pixel = vec2(this_pixel()) + 0.5 + vec2(frame.first_column, frame.first_row);
-    Interval interval = box_interval(pixel);
-    vec3 begin = entry_at(pixel, interval);
-    return ray_along(begin, direction_from(pixel, interval, begin));
+    ViewRay view = view_ray(pixel);
+    Interval interval = box_interval(pixel, view);
+    vec3 begin = entry_at(view, interval);
+    return ray_along(begin, direction_from(view, interval, begin));
 #else
     ivec2 pixel = this_pixel();
     return ray_along(texelFetch(entry, pixel, 0).xyz, texelFetch(direction, pixel, 0));

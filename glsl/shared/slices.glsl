@@ -164,8 +164,10 @@ Ray ray_on_slice(vec2 pixel, float slice, bool exactly) {
     if (exactly) {
         vec2 depth = slice_depth(pixel, slice);
         ray.depth = depth.x;
+        ViewRay view = view_ray(pixel);
         for (int axis = 0; axis < 3; ++axis) {
-            vec2 coordinate = texture_coordinate(pixel, depth, axis, -1, false);
+            vec2 sum = texture_coordinate(view, depth, axis, -1, false);
+            vec2 coordinate = sum_of_smaller(sum.x, sum.y);
             ray.entry[axis] = coordinate.x;
             vec2 voxel = df_add(df_multiply(coordinate, vec2(frame.dims[axis], 0.0)), vec2(-0.5, 0.0));
             ray.whole[axis] = floor(voxel.x);

@@ -3,6 +3,7 @@
 use cpu_time::ThreadTime;
 
 use super::cost::{build_ms, frame_ms, served};
+use super::error::meeting;
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
 use super::work::{Tuning, WayOfWorking, Work};
@@ -12,7 +13,7 @@ use crate::part::form::Form;
 use crate::part::rows::{Ahead, Method};
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, Mark, MethodSettings, Settings};
+use crate::scene::settings::{Cull, Mark, MethodSettings, SamplingSettings, Settings};
 
 /// What is known of a device when a method is chosen for it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,6 +43,8 @@ impl DeviceFacts {
 
 /// Settings of methods that are weighed where the scene leaves them as they are by default.
 const SAMPLES_PER_PASS: [u32; 3] = [8, 16, 32];
+/// Of loops that look ahead: samples that a ray takes before it looks again.
+const SAMPLES_PER_LOOK: [u32; 3] = [4, 8, 16];
 const LOOKUPS: [u32; 2] = [1, 16];
 const CELLS: [u32; 3] = [1, 2, 4];
 
@@ -49,12 +52,13 @@ const CELLS: [u32; 3] = [1, 2, 4];
 const FIRST: Tuning = Tuning { samples_per_pass: 32, lookups: 16, cell: 1, first: false };
 const REFINED: usize = 4;
 
-/// Puts a method and its settings in place of `auto`; other scenes stay as they are.
+/// Puts a method and its settings in place of `auto`, and steps that meet the error that is asked for; other scenes stay as they are.
 ///
 /// # Errors
-/// As [`choose`].
+/// As [`choose`], and when no step meets the error.
 pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecord>> {
-    if !scene.settings.method.name.is_auto() {
+    let asked = scene.settings.sampling.error.filter(|_| meets_errors(scene));
+    if !scene.settings.method.name.is_auto() && asked.is_none() {
         return Ok(None);
     }
     if scene.tetrahedra.is_some() {
@@ -69,7 +73,14 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
         return Ok(None);
     }
     let begin = ThreadTime::now();
-    let mut record = choose(scene, facts)?;
+    let mut record = match asked {
+        None => choose(scene, facts)?,
+        Some(bound) => {
+            let (sampling, record) = choose_meeting(scene, facts, bound)?;
+            scene.settings.sampling = sampling;
+            record
+        }
+    };
     let Estimate { method, samples_per_pass, lookups, cell, .. } = &record.chosen;
     let settings = &mut scene.settings;
     settings.sampling.samples_per_pass = *samples_per_pass;
@@ -78,6 +89,25 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
         method.parse().map_err(|e: String| Error::usage("--method auto", e, "please report this"))?;
     record.look_ms = begin.elapsed().as_secs_f64() * MILLISECONDS;
     Ok(Some(record))
+}
+
+/// Whether steps can be chosen: ways through cells are integrated exactly, and adaptive steps have a tolerance of their own.
+fn meets_errors(scene: &Scene) -> bool {
+    scene.tetrahedra.is_none() && !scene.settings.adaptive.importance
+}
+
+/// The way of sampling that meets an error in the least time, with the method.
+fn choose_meeting(scene: &Scene, facts: &DeviceFacts, bound: f64) -> Result<(SamplingSettings, AutoRecord)> {
+    let mut best: Option<(SamplingSettings, AutoRecord)> = None;
+    for (sampling, error) in meeting(scene, bound)? {
+        let mut sampled = scene.clone();
+        sampled.settings.sampling = sampling.clone();
+        let record = AutoRecord { error: Some(error), ..choose(&sampled, facts)? };
+        if best.as_ref().is_none_or(|(_, best)| record.chosen.ms < best.chosen.ms) {
+            best = Some((sampling, record));
+        }
+    }
+    best.ok_or_else(|| Error::usage("sampling.error (--error)", "is met by nothing", "ask for a larger error"))
 }
 
 /// In a second.
@@ -95,8 +125,13 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     let asked = &scene.settings.method;
     let of_passes = |method: &Method| scene.settings.sampling.passes == 0 || takes_passes(method);
     // Shells have a picture of their own.
+    let named = |method: &Method| asked.name.is_auto() || method.name() == asked.name;
     let asked_for = |method: &&'static Method| {
-        method.on_device && method.takes_samples() && culls_as_asked(method, asked) && of_passes(method)
+        named(method)
+            && method.on_device
+            && method.takes_samples()
+            && culls_as_asked(method, asked)
+            && of_passes(method)
     };
     let (unfit, fit): (Vec<_>, Vec<_>) =
         METHODS.into_iter().filter(asked_for).partition(|method| facts.of(method).is_some_and(|facts| facts.unfit));
@@ -115,7 +150,13 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         *estimate = best.filter(|best| best.ms < estimate.ms).unwrap_or_else(|| estimate.clone());
     }
     by_time(&mut weighed);
-    let none = || Error::usage("--method auto", "finds no method that draws this scene", "name one");
+    let none = || {
+        Error::usage(
+            format!("--method {}", asked.name),
+            "leaves no method of the device that draws this scene",
+            "name another one",
+        )
+    };
     let chosen = weighed.first().cloned().ok_or_else(|| refused.unwrap_or_else(none))?;
     let method = &scene.settings.method;
     Ok(AutoRecord {
@@ -124,6 +165,7 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         moving: method.moving,
         look_ms: 0.0,
         reasons: reasons(&look, facts, &chosen),
+        error: None,
         chosen,
         runner_up: weighed.get(1).cloned(),
         weighed,
@@ -231,7 +273,9 @@ fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
     };
     // Where passes are forced, M says how far they go.
     let in_passes = takes_passes(method) && settings.sampling.passes == 0;
-    let ms = pick(in_passes, asked.samples_per_pass, default.samples_per_pass, &SAMPLES_PER_PASS);
+    let in_looks = method.loops() && method.looks_ahead();
+    let of_method = if in_looks { &SAMPLES_PER_LOOK } else { &SAMPLES_PER_PASS };
+    let ms = pick(in_passes || in_looks, asked.samples_per_pass, default.samples_per_pass, of_method);
     let lookups = pick(method.marks_sections(), asked.lookups, default.lookups, &LOOKUPS);
     let distances = matches!(method.ahead, Ahead::Distances(_));
     let cells = pick(distances, asked.cell, default.cell, &CELLS);

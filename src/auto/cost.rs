@@ -97,6 +97,12 @@ const FETCH_OF_TWICE: f64 = 1.0;
 /// Texels of a texture that stays in the caches.
 const CACHED: f64 = (1 << 15) as f64;
 
+/// Nanoseconds that a look-up takes more in a structure that no cache holds, and bytes of one that a cache does.
+const FETCH_OF_MEMORY: f64 = 10.0;
+const OF_CACHES: f64 = (1 << 24) as f64;
+/// Bytes of a cell that tells octants apart.
+const OCTANT_BYTES: f64 = 8.0;
+
 /// The part of a sample's colour that each further fetch is taken to cost, which was not measured.
 const FETCH_SHARE: f64 = 0.4;
 
@@ -119,7 +125,12 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
     let [surface_pixel, surface_main] = if scene.surface.is_some() { costs.surface } else { [0.0; 2] };
     let lookup = match method.skips_blocks() {
         true => costs.block,
-        false => costs.distance + far(voxels / f64::from(tuning.cell).powi(3)),
+        false => {
+            let cells = voxels / f64::from(tuning.cell).powi(3);
+            let octants = method.ahead == Ahead::Distances(Distance::Directional);
+            let bytes = if octants { OCTANT_BYTES * cells } else { cells };
+            costs.distance + far(cells) + FETCH_OF_MEMORY * (1.0 - OF_CACHES / bytes.max(OF_CACHES))
+        }
     };
     let parts = [
         (costs.frame, 1.0),

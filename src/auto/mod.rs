@@ -6,6 +6,7 @@
 mod choose;
 mod coarse;
 mod cost;
+mod error;
 mod look;
 mod record;
 mod work;
@@ -13,6 +14,7 @@ mod work;
 pub use choose::{DeviceFacts, MethodFacts, choose, settle};
 pub use coarse::Coarse;
 pub use cost::{build_ms, frame_ms};
+pub use error::{ErrorRecord, Tried};
 pub use look::{Look, LookRay, Seen};
 pub use record::{AutoRecord, Estimate};
 pub use work::{Tuning, Work};

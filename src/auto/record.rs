@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::cost::served;
+use super::error::ErrorRecord;
 use super::work::Work;
 use crate::method::METHODS;
 
@@ -18,6 +19,8 @@ pub struct AutoRecord {
     pub look_ms: f64,
     /// What was found, in sentences.
     pub reasons: Vec<String>,
+    /// How steps were chosen that meet an error; null where none was asked for.
+    pub error: Option<ErrorRecord>,
     pub chosen: Estimate,
     /// The best of another method; null where no other draws the scene.
     pub runner_up: Option<Estimate>,
@@ -58,7 +61,8 @@ impl AutoRecord {
         };
         let chosen = format!("auto chose {} {frames}", self.chosen.words());
         let runner_up = self.runner_up.iter().map(|estimate| format!("the runner-up is {}", estimate.words()));
-        std::iter::once(chosen).chain(runner_up).chain(self.reasons.iter().cloned()).collect()
+        let error = self.error.iter().map(ErrorRecord::words);
+        std::iter::once(chosen).chain(error).chain(runner_up).chain(self.reasons.iter().cloned()).collect()
     }
 }
 

@@ -68,7 +68,7 @@ impl Work {
         let mut sum = Self { pixels: look.pixels, passes, ..Self::default() };
         for cluster in &look.clusters {
             let walks = cluster.iter().map(|ray| Walk { method, tuning, look, ray });
-            sum.add(walks.map(|walk| walk.trace()).collect(), method.loops());
+            sum.add(walks.map(|walk| walk.trace()).collect(), method.loops().then_some(m));
         }
         let rays = look.rays().count().max(1) as f64;
         sum.times(look.pixels / rays)
@@ -80,8 +80,8 @@ impl Work {
         Self { main_lanes: self.main_lanes.max(all.main_lanes), samples: self.samples.max(all.samples), shown, ..self }
     }
 
-    /// Adds what a cluster of rays does.
-    fn add(&mut self, traces: Vec<Trace>, loops: bool) {
+    /// Adds what a cluster of rays does; in loops that take so many samples between looks.
+    fn add(&mut self, traces: Vec<Trace>, loops: Option<f64>) {
         let rays = traces.len() as f64;
         let passes = traces.iter().map(|trace| trace.passes.len()).max().unwrap_or(0);
         for pass in 0..passes {
@@ -91,7 +91,7 @@ impl Work {
             self.intermediate += of_pass().map(|one| one.intermediate).sum::<f64>();
             let (samples, lookups) = (most(|one| one.samples), most(|one| one.lookups));
             self.main_lanes += most(|one| one.main);
-            self.samples += if loops { rays * together(of_pass()).max(samples / rays) } else { samples };
+            self.samples += loops.map_or(samples, |m| (rays * together(of_pass(), m)).max(samples));
             self.intermediate_lanes += most(|one| one.intermediate);
             self.lookups += lookups;
         }
@@ -117,13 +117,13 @@ impl Work {
 /// Rays that a device shades together.
 const LANES: f64 = 8.0;
 
-/// Rounds of a loop in which any of the rays that are shaded together takes a sample: each leaps where it may, so that they are out of
-/// step, and who leaps waits for those that sample.
-fn together<'a>(rays: impl Iterator<Item = &'a PassOfRay> + Clone) -> f64 {
+/// Samples of a loop, `m` behind each look that finds none free, that any of the rays takes which are shaded together: each leaps where it
+/// may, so that they are out of step, and who leaps waits for those that sample.
+fn together<'a>(rays: impl Iterator<Item = &'a PassOfRay> + Clone, m: f64) -> f64 {
     let rounds = rays.clone().map(|ray| ray.lookups).fold(0.0, f64::max);
     let count = rays.clone().count().max(1) as f64;
-    let none = |ray: &PassOfRay| (1.0 - ray.samples / rounds.max(1.0)).clamp(0.0, 1.0).powf(LANES / count);
-    rounds * (1.0 - rays.map(none).product::<f64>())
+    let none = |ray: &PassOfRay| (1.0 - ray.samples / m / rounds.max(1.0)).clamp(0.0, 1.0).powf(LANES / count);
+    m * rounds * (1.0 - rays.map(none).product::<f64>())
 }
 
 /// What a method does on a ray.
@@ -190,11 +190,14 @@ impl Walk<'_> {
         while i < end {
             let free = if looks_ahead { self.free_from(i) } else { 0 };
             pass.lookups += f64::from(u8::from(looks_ahead));
-            if free == 0 {
-                pass.samples += 1.0;
-                shown += self.shown(i, i + 1);
+            if free > 0 {
+                i += free;
+                continue;
             }
-            i += free.max(1);
+            let next = if looks_ahead { (i + self.tuning.samples_per_pass as usize).min(end) } else { end };
+            pass.samples += (next - i) as f64;
+            shown += self.shown(i, next);
+            i = next;
         }
         Trace { passes: vec![pass], shown }
     }

@@ -98,6 +98,7 @@ impl BenchCommand {
         }
         let scene = |name: &OsString| -> Result<(String, Settings)> {
             let settings = self.scene_options.settings(Some(name))?;
+            settings.sampling.as_written()?;
             Ok((scene_name(&settings), settings))
         };
         let job = BenchJob {

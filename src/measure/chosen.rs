@@ -10,12 +10,12 @@ use crate::scene::Scene;
 use crate::scene::settings::Cull;
 use crate::vulkan::Device;
 
-/// Puts a method and its settings in place of `auto`; other scenes stay as they are.
+/// Puts a method and its settings in place of `auto`, and steps that meet an error; other scenes stay as they are.
 ///
 /// # Errors
 /// When no method draws the scene.
 pub fn settle(scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
-    if !scene.settings.method.name.is_auto() {
+    if !scene.settings.method.name.is_auto() && scene.settings.sampling.error.is_none() {
         return Ok(None);
     }
     let facts = on.map(|(device, check)| facts(scene, device, check));

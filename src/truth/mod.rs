@@ -4,4 +4,5 @@
 pub mod cell_table;
 pub mod exact;
 pub mod importance;
+pub mod known;
 pub mod preintegrated;

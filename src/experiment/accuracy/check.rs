@@ -9,12 +9,14 @@ use crate::method;
 use crate::plan;
 use crate::scene::Scene;
 use crate::scene::settings::{MethodName, Shows};
+use crate::truth::known;
 
 /// Whether a job can be measured.
 ///
 /// # Errors
 /// When a method, a step or what a surface shows cannot be.
 pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
+    job.settings.sampling.as_written()?;
     if job.methods.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));
@@ -44,28 +46,7 @@ pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
 /// # Errors
 /// When it has none, or cannot be.
 pub fn check_scene(job: &AccuracyJob, scene: &Scene) -> Result<()> {
-    if scene.sees_through_surfaces() && scene.tetrahedra.is_none() {
-        return Err(Error::usage(
-            "surface",
-            "has surfaces that rays go on behind, and accuracy holds the one that a ray meets against its root",
-            "give opacity = 1 and leave out surface.volume, or use render and bench",
-        ));
-    }
-    if let Some(effect) = &scene.effect {
-        let problem = format!("is {}, of whose colours no exact integral is known", effect.file());
-        return Err(Error::usage("effects.file (--effect)", problem, "leave it out"));
-    }
-    if scene.settings.effects.refraction.is_some() || scene.backdrop.is_some() {
-        return Err(Error::usage(
-            "effects.refraction, effects.background (--refraction, --behind)",
-            "bend rays, or show what is behind the volume, and the exact integral goes straight to where the volume ends",
-            "leave them out, or use render and bench",
-        ));
-    }
-    if scene.surface.is_none() && !scene.lights.is_empty() {
-        let remedy = "leave the lights out, or give an iso-surface (--iso), whose exact picture is known";
-        return Err(Error::usage("light", "shines on samples, of whose colours no exact integral is known", remedy));
-    }
+    known::check(scene)?;
     for method in &job.methods {
         let row = method::of(*method)?;
         if row.goes_through_cells() {

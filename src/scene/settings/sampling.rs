@@ -10,6 +10,9 @@ use crate::scene::limits::Limits;
 /// Steps that are neither below what single precision resolves nor longer than any volume, in voxels.
 const STEPS: Limits = Limits::from_to(1e-4, 1e6, "a number of voxels {}");
 
+/// Errors that may be asked for, of a channel of the picture.
+const ERRORS: Limits = Limits::from_to(1e-6, 1.0, "an error {}");
+
 /// The most samples of a pass, and the most passes.
 const MAX_COUNT: f64 = 65536.0;
 
@@ -25,6 +28,12 @@ section! {
     /// Distance between samples, in voxels of the finest spacing
     #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
     step: f64 = 1.0, within STEPS;
+
+    /// Largest error of any channel against the exact integral, a number or a fraction as 1/255: step, T and classification are chosen so
+    /// that they meet it, by a quick look, and with --method auto the fastest method
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(long, value_name = "BOUND", value_parser = fraction, allow_negative_numbers = true)]
+    error?: f64, within ERRORS, default "none";
 
     /// Where in its step a sample is taken
     #[arg(long, value_name = "PLACE")]
@@ -69,7 +78,29 @@ section! {
         within Limits::from_to(f64::from(*EXTRA_FETCHES.start()), f64::from(*EXTRA_FETCHES.end()), "a number {}");
 }
 
+/// A number, or one divided by another.
+fn fraction(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|e| format!("`{text}`: {e}"));
+    match text.split_once('/') {
+        Some((above, below)) => Ok(number(above)? / number(below)?),
+        None => number(text),
+    }
+}
+
 impl SamplingSettings {
+    /// Whether the way of sampling is as it is written, for runs that draw a scene by several methods or steps and compare what they draw.
+    ///
+    /// # Errors
+    /// When it is to be chosen.
+    pub fn as_written(&self) -> crate::error::Result<()> {
+        let Some(bound) = self.error else { return Ok(()) };
+        Err(crate::error::Error::usage(
+            format!("sampling.error (--error {bound})"),
+            "chooses steps for one method, and here several methods or steps are compared",
+            "use render, whose JSON says what it has chosen, and give that here",
+        ))
+    }
+
     /// Whether a sample stands for all values up to the next one, not for its own alone.
     pub fn preintegrates(&self) -> bool {
         self.classification == Classification::PreIntegrated

@@ -1,0 +1,210 @@
+//! How long a picture of a volume takes beside VTK and vispy, in CPU time of the process (all threads) on a device that is a CPU: the same voxels,
+//! view, transfer function and step, all in the same minutes. Structures are built before. Every method of ours has the settings that `auto`
+//! weighs it with, and takes turns with the others. Peers run where Python has their packages (`pip install vtk vispy PyOpenGL`).
+//!
+//! `cargo bench --bench peers [-- PART-OF-NAME]`, the name being `aneurism, ramp`. Needs a device and `../shared/data`. With PICTURES=FOLDER
+//! the pictures of peers are kept there.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use depthleap::auto::{DeviceFacts, Estimate, choose};
+use depthleap::frame::self_check;
+use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::{Picture, Statistics};
+use depthleap::part::rows::{Ahead, Method};
+use depthleap::scene::settings::{Distance, MethodSettings, Settings};
+use depthleap::scene::transfer::Knot;
+use depthleap::scene::volume::Voxels;
+use depthleap::scene::{Camera, Scene};
+use depthleap::truth::exact::ExactIntegrator;
+use depthleap::vulkan::{Device, Instance, pick};
+use depthleap::{Result, read};
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
+const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers.py");
+const VOLUMES: [&str; 5] = ["aneurism", "engine", "engine_256cube", "fuel", "mri_head"];
+const TRANSFER_FUNCTIONS: [&str; 3] = ["ramp", "surface", "haze"];
+const PEERS: [&str; 3] = ["vtk-fixed", "vtk-gpu", "vispy"];
+const RUNS: usize = 5;
+const EFFORT: Effort = Effort { warmups: 1, repeats: RUNS, reference: false };
+
+/// Pixels of a side.
+const SIZE: u32 = 500;
+
+/// Where the camera stands: degrees, and volume space.
+const AZIMUTH: f64 = 30.0;
+const ELEVATION: f64 = 20.0;
+const DISTANCE: f64 = 1.91;
+
+/// The greatest code of 8 bits.
+const CODES: f64 = 255.0;
+
+fn main() -> Result<()> {
+    // Cargo adds options of its own.
+    let asked = std::env::args().skip(1).find(|argument| !argument.starts_with("--")).unwrap_or_default();
+    let instance = Instance::new(false)?;
+    let (info, _) = pick(&instance.devices()?, None)?;
+    println!("{}, {} {}", info.name, info.driver_name, info.driver_info);
+    println!(
+        "{SIZE} x {SIZE} pixels, step 1, CPU ms, median of {RUNS} (least to greatest), rmse against the exact integral"
+    );
+    let device = Device::new(&instance, &info, false)?;
+    let checked = Checked { check: self_check(&device)?, device, early_end: None };
+    for volume in VOLUMES {
+        let file = Path::new(DATA).join(format!("{volume}.nrrd"));
+        for transfer in TRANSFER_FUNCTIONS {
+            let name = format!("{volume}, {transfer}");
+            if !name.contains(&asked) {
+                continue;
+            }
+            match file.exists() {
+                true => compare(&checked, &name, &scene(file.clone(), transfer)?)?,
+                false => println!("{name}: left out, {} is not there", file.display()),
+            }
+        }
+    }
+    Ok(())
+}
+
+fn scene(file: PathBuf, transfer: &str) -> Result<Scene> {
+    let mut settings = Settings::default();
+    settings.volume.path = Some(file);
+    settings.transfer.preset = Some(transfer.to_owned());
+    settings.image.size = [SIZE; 2];
+    settings.camera.eye = Camera::orbit(AZIMUTH, ELEVATION, DISTANCE, settings.camera.fov_y).eye.to_array();
+    read::scene(&settings)
+}
+
+/// Milliseconds: the median, the least and the greatest.
+struct Times([f64; 3]);
+
+impl Times {
+    fn median(&self) -> f64 {
+        self.0[0]
+    }
+
+    fn words(&self) -> String {
+        let [median, least, greatest] = self.0;
+        format!("{median:.1} ({least:.1} to {greatest:.1})")
+    }
+}
+
+/// A method of ours, measured.
+struct Ours {
+    method: &'static Method,
+    words: String,
+    times: Times,
+    picture: Picture,
+}
+
+fn compare(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
+    println!("\n{name}");
+    let rays = scene.camera.rays(scene.settings.image.size)?;
+    let exact = ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size);
+    let mut ours = ours(checked, scene, name)?;
+    ours.sort_by(|a, b| a.times.median().total_cmp(&b.times.median()));
+    for one in &ours {
+        let rmse = rmse(one.picture.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(f64::from)), &exact);
+        println!("  {:<48} {:<24} rmse {rmse:.1e}", one.words, one.times.words());
+    }
+    let for_a_view = |one: &&Ours| matches!(one.method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone));
+    let best = ours.first().map(|one| one.times.median());
+    let of_any_view = ours.iter().find(|one| !for_a_view(one)).map(|one| one.times.median());
+    for peer in PEERS {
+        match run_peer(scene, peer, name) {
+            Ok((times, picture)) => {
+                let rmse = rmse(picture.iter().map(|rgb| rgb.map(|c| f64::from(c) / CODES)), &exact);
+                let ratio = |ours: Option<f64>| ours.map_or("-".to_owned(), |ms| format!("{:.2}", ms / times.median()));
+                println!(
+                    "  {peer:<48} {:<24} rmse {rmse:.1e}; the best of ours takes {} of it, without a structure for each view {}",
+                    times.words(),
+                    ratio(best),
+                    ratio(of_any_view)
+                );
+            }
+            Err(why) => println!("  {peer}: {why}"),
+        }
+    }
+    Ok(())
+}
+
+/// Every method that draws the scene, with the settings that it is weighed with.
+fn ours(checked: &Checked, scene: &Scene, name: &str) -> Result<Vec<Ours>> {
+    let mut asked = scene.clone();
+    // What is built is not counted.
+    asked.settings.method.frames = u32::MAX;
+    let record = choose(&asked, &DeviceFacts::default())?;
+    let mut runner = Runner::new(Some(checked), scene.clone(), name.to_owned());
+    let mut ours = Vec::new();
+    for estimate in &record.weighed {
+        let Ok(method) = estimate.method.parse() else { continue };
+        let method = MethodSettings {
+            name: method,
+            lookups: estimate.lookups,
+            cell: estimate.cell,
+            ..scene.settings.method.clone()
+        };
+        runner.vary(|settings| settings.sampling.samples_per_pass = estimate.samples_per_pass);
+        // A form that this device lacks is not measured.
+        if runner.check(std::slice::from_ref(&method)).is_err() {
+            continue;
+        }
+        for one in runner.measure(&[method], EFFORT, &|_| {})? {
+            let Some(Statistics { min, max, .. }) = one.run.host.cpu.and_then(|time| time.stats) else { continue };
+            let median = one.run.host.cpu.map_or(f64::NAN, |time| time.value);
+            ours.push(Ours {
+                method: one.method,
+                words: words(estimate),
+                times: Times([median, min, max]),
+                picture: one.picture,
+            });
+        }
+    }
+    Ok(ours)
+}
+
+fn words(estimate: &Estimate) -> String {
+    let Estimate { method, samples_per_pass, lookups, cell, .. } = estimate;
+    format!("{method} (M {samples_per_pass}, look-ups {lookups}, cell {cell})")
+}
+
+fn rmse(picture: impl Iterator<Item = [f64; 3]>, exact: &[[f64; 4]]) -> f64 {
+    let squares = picture.zip(exact).flat_map(|(ours, exact)| (0..3).map(move |c| (ours[c] - exact[c]).powi(2)));
+    (squares.sum::<f64>() / (3 * exact.len()) as f64).sqrt()
+}
+
+/// Draws with a peer.
+fn run_peer(scene: &Scene, peer: &str, name: &str) -> std::result::Result<(Times, Vec<[u8; 3]>), String> {
+    let Voxels::U8(voxels) = &scene.field.volume.voxels else { return Err("takes bytes alone".to_owned()) };
+    let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
+    let kept = std::env::var_os("PICTURES").map_or_else(|| folder.path().to_owned(), PathBuf::from);
+    let [file, told] = ["voxels", "scene.json"].map(|name| folder.path().join(name));
+    let picture = kept.join(format!("{}-{peer}.npy", name.replace(", ", "-")));
+    let [low, high] = scene.field.range;
+    let point = |knot: &Knot| {
+        let [r, g, b] = knot.color;
+        [low + knot.x * (high - low), r, g, b, knot.opacity]
+    };
+    let finest = scene.field.finest();
+    let Camera { eye, target, up, fov_y, .. } = scene.camera;
+    let words = serde_json::json!({
+        "file": file, "dims": scene.field.dims(), "voxel": scene.field.voxel().to_array(),
+        "points": scene.transfer.knots().iter().map(point).collect::<Vec<_>>(), "size": SIZE,
+        "eye": eye.to_array(), "target": target.to_array(), "up": up.to_array(), "fov": fov_y,
+        "unit": scene.transfer.reference * finest, "step": scene.settings.sampling.step * finest, "runs": RUNS, "out": picture,
+    });
+    std::fs::write(&file, voxels).and_then(|()| std::fs::write(&told, words.to_string())).map_err(|e| e.to_string())?;
+    let said = Command::new("python3").arg(SCRIPT).arg(told).arg(peer).output();
+    let said = said.map_err(|e| format!("python3 cannot be started ({e})"))?;
+    if !said.status.success() {
+        return Err("python3 has no such package, or it failed".to_owned());
+    }
+    let times = String::from_utf8_lossy(&said.stdout);
+    let times: Vec<f64> =
+        times.lines().last().unwrap_or_default().split(' ').filter_map(|word| word.parse().ok()).collect();
+    let [median, least, greatest] = times[..] else { return Err("says no times".to_owned()) };
+    let bytes = std::fs::read(picture).map_err(|e| e.to_string())?;
+    let pixels = &bytes[bytes.len().saturating_sub(3 * (SIZE * SIZE) as usize)..];
+    Ok((Times([median, least, greatest]), pixels.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()))
+}
