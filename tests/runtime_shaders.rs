@@ -22,10 +22,10 @@ fn what_was_changed_in_the_folder_is_compiled_anew() {
     let copy = copy();
     glsl::set_directory(copy.path().to_path_buf()).unwrap();
     assert_eq!(module("entry.frag").unwrap(), built, "the same compiler");
-    alter(copy.path(), "entry.frag", "(pixel)), 1.0);", "(pixel)), 2.0);");
+    alter(copy.path(), "entry.frag", "(pixel, ray)), 1.0);", "(pixel, ray)), 2.0);");
     assert_ne!(module("entry.frag").unwrap(), built, "a change is seen");
 
-    let line = alter(copy.path(), "entry.frag", "(pixel)), 2.0);", "(pixel)), two);");
+    let line = alter(copy.path(), "entry.frag", "(pixel, ray)), 2.0);", "(pixel, ray)), two);");
     let error = module("entry.frag").unwrap_err();
     assert_eq!(error.kind, ErrorKind::Input);
     let place = format!("{}:{line}:56:", copy.path().join("entry.frag").display());

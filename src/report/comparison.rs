@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::limit::Limit;
 use super::number::{milliseconds, percent, thousands};
 use super::table::{Cell, Column, Table};
 use crate::measure::fragment_kind::FragmentKind;
@@ -156,6 +157,10 @@ const COLUMNS: [(&str, &str, bool); 15] = [
     ("largest", "error", true),
 ];
 
+/// Places of times among the columns.
+const GPU_TIME: usize = 8;
+const CPU_TIME: usize = 9;
+
 /// The comparison of one group.
 pub fn table(group: &RunGroup) -> Table {
     let head =
@@ -180,6 +185,11 @@ impl Sheet {
             row[0] = self.noted("ideal", "lower bound: the segments that hold a contributing sample; no method".into());
             row[3] = value(thousands(ideal));
             row[4] = self.share(ideal, baseline.map(|b| b.fragments.main));
+            let labelled: Vec<(String, &Run)> = group.runs.iter().map(|(_, run)| (label(run), *run)).collect();
+            if let Some(limit) = Limit::of(&labelled, ideal) {
+                let column = if limit.clock == Clock::Gpu { GPU_TIME } else { CPU_TIME };
+                row[column] = self.noted(&milliseconds(limit.ms), limit.words());
+            }
             self.0.row(row);
         }
     }

@@ -1,11 +1,12 @@
 //! What became of the fragments saved, and how that depends on the cost of a sample.
 
 use depthleap::experiment::bench::{csv, table};
-use depthleap::measure::record::{Clock, Saved};
+use depthleap::measure::record::{Clock, PassTimes, Saved};
 use depthleap::measure::saving::save;
 use depthleap::measure::{Results, Run, Timing};
 use depthleap::report::comparison::groups;
 use depthleap::report::cost::{CostRow, Sweep};
+use depthleap::report::limit::Limit;
 use depthleap::report::plot::cost_svg;
 use depthleap::report::{branching, verdict};
 
@@ -184,4 +185,38 @@ fn sweep_is_shown_once_with_its_scene() {
     for column in ["saved_fragments", "saved_time", "culling_efficiency", "settings.sampling.extra_fetches"] {
         assert!(rows.lines().next().unwrap().contains(column), "{column}");
     }
+}
+
+/// A run of `passes` with those fragments and times, GPU milliseconds in all.
+fn by_passes(method: &str, main: &[u64], ms: &[f64], total: f64) -> Run {
+    let mut run = Run { gpu_ms_per_pass: None, ..run(method, main, &vec![0; main.len()]) };
+    run.passes = main.len() as u32;
+    run.gpu_ms_per_pass = Some(PassTimes { main: ms.to_vec(), intermediate: Vec::new() });
+    if let Some(times) = &mut run.gpu_ms {
+        times.0.iter_mut().filter(|(name, _)| name == "total").for_each(|(_, timing)| *timing = Timing::once(total));
+    }
+    run
+}
+
+#[test]
+fn limit_is_what_shows_at_the_cost_of_all_and_empty_passes() {
+    let all = by_passes("rc", &[100, 100, 100, 100], &[6.0, 6.0, 6.0, 6.0], 24.0);
+    let omni = by_passes("nn-omni", &[40, 0, 0, 60], &[3.0, 1.0, 1.0, 3.0], 16.0);
+    let labelled = [("rc".to_owned(), &all), ("nn-omni".to_owned(), &omni)];
+    // An empty pass takes 1 ms, so that 400 segments take 20 ms; 80 of them 4 ms, and the passes 4 ms.
+    let limit = Limit::of(&labelled, 80).expect("a limit");
+    assert_eq!((limit.pass_ms, limit.any_is_empty, limit.clock), (1.0, true, Clock::Gpu));
+    assert!((limit.segment_ms - 0.05).abs() < 1e-12 && (limit.ms - 8.0).abs() < 1e-12, "{limit:?}");
+    assert_eq!(limit.distances, [("rc".to_owned(), 3.0), ("nn-omni".to_owned(), 2.0)]);
+    assert!(
+        limit.words().contains("80 segments at 50000 ns") && limit.words().contains("nn-omni 2.00"),
+        "{}",
+        limit.words()
+    );
+    // Other segments are of other length.
+    let mut other = omni.clone();
+    other.settings.sampling.samples_per_pass = 32;
+    let limit = Limit::of(&[("rc".to_owned(), &all), ("other".to_owned(), &other)], 80).expect("a limit");
+    assert_eq!((limit.distances.len(), limit.any_is_empty, limit.pass_ms), (1, false, 6.0));
+    assert_eq!(Limit::of(&[("nn-omni".to_owned(), &omni)], 80), None);
 }
