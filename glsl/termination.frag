@@ -1,11 +1,14 @@
 // Intermediate pass of `rc-ert`: stopping criterion [KW03 §2.1 "Intermediate passes", Thesis §5.2.2].
 // IF(RES[x][y] > T) THEN z = MAX ELSE z = 0. Runs for every fragment, since it writes depth.
 //
+// BESIDE: a colour is attached and written for nothing (tet_update.frag has the reason): main passes of adaptive steps have two attachments,
+// of which one blends.
+//
 // Departure: that a ray has left the volume is known from its length, not from an opacity of 1 in RES.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes MARK_COPY | MARK_FRAGDEPTH | MARK_FRAGDEPTH_ANY
-//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE], [SLICES], [PLANES], [ORTHOGRAPHIC], [ADAPTIVE]
+//@takes [LAYER_BEFORE], [LAYER_BEHIND], [OPAQUE], [CLIPPED], [PARTIAL_APART], [ENDLESS], [SURFACE], [SLICES], [PLANES], [ORTHOGRAPHIC], [ADAPTIVE], [BESIDE]
 
 #include "shared/frame.glsl"
 #include "shared/mark.glsl"
@@ -27,7 +30,14 @@
 layout(set = 0, binding = 72) uniform sampler2D reached;
 #endif
 
+#ifdef BESIDE
+layout(location = 0) out float beside;
+#endif
+
 void main() {
+#ifdef BESIDE
+    beside = 0.0;
+#endif
     Ray ray = load_ray();
 #ifdef ADAPTIVE
     bool gone = texelFetch(reached, ivec2(gl_FragCoord.xy), 0).r >= ray.steps;

@@ -7,13 +7,9 @@ const float FAR_AWAY = 3.0e38;
 
 // One component (0, 1, 2) of what a place of the picture (`pixel` in pixels, centres at + 0.5) adds to its upper left corner.
 vec2 ray_shift(vec2 pixel, int axis) {
-    // Nine bits of a pixel's sides, whose products with places of up to 2^14 pixels are exact.
-    vec2 side = vec2(frame.right[0][axis], frame.down[0][axis]);
-    vec2 high = vec2(leading(side.x, 15), leading(side.y, 15));
-    precise vec2 rest = side - high;
-    precise vec2 low = rest * pixel + vec2(frame.right[1][axis], frame.down[1][axis]) * pixel;
-    vec2 sum = two_sum(high.x * pixel.x, high.y * pixel.y);
-    return two_sum(sum.x, sum.y + (low.x + low.y));
+    vec2 along_x = df_multiply(vec2(pixel.x, 0.0), vec2(frame.right[0][axis], frame.right[1][axis]));
+    vec2 along_y = df_multiply(vec2(pixel.y, 0.0), vec2(frame.down[0][axis], frame.down[1][axis]));
+    return df_add(along_x, along_y);
 }
 
 // One component of the direction through a place of the picture, with component 1 along the view direction.

@@ -11,6 +11,7 @@ use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
 use crate::part::{Draw, Group, Step};
 use crate::resource;
+use crate::scene::settings::Mark;
 use crate::twin;
 
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
@@ -32,6 +33,11 @@ pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     draw.specialize((APART.constants)(context));
     let scene = context.scene;
     draw.specialize([constants::samples(scene), constants::depth_bits(scene), constants::projection(context)]);
+    if context.has(&ADAPTIVE) && form.mark != Mark::Copy {
+        // The reason stands in the shader.
+        accesses.push(Usage::Color.of(resource::REACHED.at(1)));
+        draw.define(["BESIDE"]);
+    }
     cull::mark_into(&mut draw, &mut accesses, form.mark, vk::CompareOp::ALWAYS);
     Step::drawn(format!("termination #{pass}"), Group::Intermediate, pass, accesses, draw)
 }

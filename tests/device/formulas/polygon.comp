@@ -11,6 +11,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     vec2 pixel = arguments.values[i].xy;
     Meeting found = meet(uint(arguments.values[i].z), pixel);
-    vec2 way = df_add(found.depth, -box_interval(pixel).enter);
+    vec2 way = df_add(found.depth, -box_interval(pixel, view_ray(pixel)).enter);
     results.values[i] = vec4(way.x * found.stretch, frame.near / found.depth.x, found.shown ? 1.0 : 0.0, found.front ? 1.0 : 0.0);
 }
