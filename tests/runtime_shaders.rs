@@ -28,7 +28,7 @@ fn what_was_changed_in_the_folder_is_compiled_anew() {
     let line = alter(copy.path(), "entry.frag", "(pixel, ray)), 2.0);", "(pixel, ray)), two);");
     let error = module("entry.frag").unwrap_err();
     assert_eq!(error.kind, ErrorKind::Input);
-    let place = format!("{}:{line}:56:", copy.path().join("entry.frag").display());
+    let place = format!("{}:{line}:59:", copy.path().join("entry.frag").display());
     assert!(error.to_string().contains(&place), "{error}");
     assert!(module("direction.frag").is_ok(), "others still compile");
     let unknown = module("entrance.frag").unwrap_err().to_string();
