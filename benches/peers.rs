@@ -1,6 +1,6 @@
 //! How long a picture of a volume takes beside VTK and vispy, in CPU time of the process (all threads) on a device that is a CPU: the same voxels,
 //! view, transfer function and step, all in the same minutes. Structures are built before. Every method of ours has the settings that `auto`
-//! weighs it with, and takes turns with the others. Peers run where Python has their packages (`pip install vtk vispy PyOpenGL`).
+//! weighs it with; methods and peers are timed one after the other. Peers run where Python has their packages (`pip install vtk vispy PyOpenGL`).
 //!
 //! `cargo bench --bench peers [-- PART-OF-NAME]`, the name being `aneurism, ramp`. Needs a device and `../shared/data`. With PICTURES=FOLDER
 //! the pictures of peers are kept there.

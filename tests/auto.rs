@@ -8,7 +8,7 @@ use depthleap::method::{self, METHODS};
 use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
-use depthleap::scene::settings::{Cull, MethodName};
+use depthleap::scene::settings::{Cull, Last, MethodName};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Settings, Volume};
 use depthleap::truth::exact::ExactIntegrator;
@@ -357,10 +357,22 @@ fn a_method_that_is_named_is_kept_and_given_settings_that_meet_the_error() {
     let record = settle(&mut scene, &DeviceFacts::default()).unwrap().expect("a record");
     assert_eq!((record.chosen.method.as_str(), scene.settings.method.name), ("rc-ert", method::RC_ERT.name()));
     assert!(scene.settings.sampling.termination > 0.99 && record.error.is_some());
+    // It is written down as if it had been asked for.
+    assert_eq!(scene.settings.sampling.error, None);
     // What was asked for otherwise than by default stays.
-    scene.settings.sampling.step = 0.03;
+    (scene.settings.sampling.step, scene.settings.sampling.error) = (0.03, Some(0.01));
     let again = settle(&mut scene, &DeviceFacts::default()).unwrap().and_then(|record| record.error);
     assert_eq!(again.map(|error| error.step), Some(0.03));
+}
+
+#[test]
+fn slices_that_are_named_meet_an_error_by_whole_steps() {
+    let mut scene = scene("jets:24", "ramp", |s| {
+        (s.sampling.error, s.method.name) = (Some(0.05), method::SLICES_3D.name());
+    });
+    let record = settle(&mut scene, &DeviceFacts::default()).unwrap().expect("a record");
+    assert!(record.named && record.chosen.method == "slices-3d", "{record:?}");
+    assert_eq!(scene.settings.sampling.last, Last::Full);
 }
 
 #[test]
@@ -372,5 +384,11 @@ fn an_error_that_nothing_meets_is_refused() {
     let surface = refused(|s| (s.sampling.error, s.surface.iso) = (Some(1e-6), Some(90.0)));
     assert!(surface.contains("is met by no step"), "{surface}");
     let coarse = refused(|s| (s.sampling.error, s.sampling.step) = (Some(1e-4), 2.0));
-    assert!(coarse.contains("sampling.error"), "{coarse}");
+    assert!(coarse.contains("down to 2 voxels"), "{coarse}");
+    let adaptive = refused(|s| (s.sampling.error, s.adaptive.importance) = (Some(0.01), true));
+    assert!(adaptive.contains("a tolerance of their own"), "{adaptive}");
+    let cells = refused(|s| (s.sampling.error, s.volume.builtin) = (Some(0.01), Some("tets-ball:2".to_owned())));
+    assert!(cells.contains("lengths of their own"), "{cells}");
+    let reference = refused(|s| (s.sampling.error, s.method.name) = (Some(0.01), method::CPU.name()));
+    assert!(reference.contains("name another method"), "{reference}");
 }

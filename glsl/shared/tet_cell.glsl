@@ -31,7 +31,7 @@ vec4 cell_light(Line line, Way way, Way next, bool enters) {
     vec2 to = next.at;
     float near = frame.near - tet_view.middle.x;
     // Where the ray begins to be drawn.
-    bool begins = from.x < near ? to.x >= near : enters;
+    bool begins = from.x <= near ? to.x > near : enters;
     if (from.x < near) {
         float part = to.x > from.x ? clamp((near - from.x) / (to.x - from.x), 0.0, 1.0) : 1.0;
         from = mix(from, to, part);

@@ -57,7 +57,10 @@ const REFINED: usize = 4;
 /// # Errors
 /// As [`choose`], and when no step meets the error.
 pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecord>> {
-    let asked = scene.settings.sampling.error.filter(|_| meets_errors(scene));
+    let asked = scene.settings.sampling.error;
+    if asked.is_some() {
+        takes_errors(scene)?;
+    }
     if !scene.settings.method.name.is_auto() && asked.is_none() {
         return Ok(None);
     }
@@ -91,23 +94,51 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
     Ok(Some(record))
 }
 
-/// Whether steps can be chosen: ways through cells are integrated exactly, and adaptive steps have a tolerance of their own.
-fn meets_errors(scene: &Scene) -> bool {
-    scene.tetrahedra.is_none() && !scene.settings.adaptive.importance
+/// Whether steps can be chosen so that they meet an error.
+///
+/// # Errors
+/// When the scene has no steps, or steps by a tolerance of their own, or is drawn by a method that is not weighed.
+fn takes_errors(scene: &Scene) -> Result<()> {
+    let refused = |why: &str, remedy: &str| Err(Error::usage("sampling.error (--error)", why, remedy));
+    let weighed = |method: &Method| method.on_device && method.takes_samples();
+    match () {
+        () if scene.tetrahedra.is_some() => refused(
+            "chooses steps, and ways through cells have lengths of their own",
+            "leave it out: each way is integrated exactly, and --termination 1 ends none early",
+        ),
+        () if scene.settings.adaptive.importance => refused(
+            "chooses steps that are all alike, and adaptive steps have a tolerance of their own",
+            "use --tolerance",
+        ),
+        () if method::find(scene.settings.method.name).is_some_and(|method| !weighed(method)) => refused(
+            "chooses by the time that samples take on a device, which this method has none of",
+            "name another method, or auto",
+        ),
+        () => Ok(()),
+    }
 }
 
 /// The way of sampling that meets an error in the least time, with the method.
 fn choose_meeting(scene: &Scene, facts: &DeviceFacts, bound: f64) -> Result<(SamplingSettings, AutoRecord)> {
     let mut best: Option<(SamplingSettings, AutoRecord)> = None;
+    let mut refused = None;
     for (sampling, error) in meeting(scene, bound)? {
         let mut sampled = scene.clone();
         sampled.settings.sampling = sampling.clone();
-        let record = AutoRecord { error: Some(error), ..choose(&sampled, facts)? };
+        // A method may take one classification and not the other.
+        let record = match choose(&sampled, facts) {
+            Ok(record) => AutoRecord { error: Some(error), named: !scene.settings.method.name.is_auto(), ..record },
+            Err(e) => {
+                refused = Some(e);
+                continue;
+            }
+        };
         if best.as_ref().is_none_or(|(_, best)| record.chosen.ms < best.chosen.ms) {
             best = Some((sampling, record));
         }
     }
-    best.ok_or_else(|| Error::usage("sampling.error (--error)", "is met by nothing", "ask for a larger error"))
+    let none = || Error::usage("sampling.error (--error)", "is met by nothing", "ask for a larger error");
+    best.ok_or_else(|| refused.unwrap_or_else(none))
 }
 
 /// In a second.
@@ -165,6 +196,7 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         moving: method.moving,
         look_ms: 0.0,
         reasons: reasons(&look, facts, &chosen),
+        named: false,
         error: None,
         chosen,
         runner_up: weighed.get(1).cloned(),

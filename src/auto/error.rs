@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::frame::{Structures, cpu};
-use crate::method::CPU;
+use crate::method::{self, CPU};
 use crate::plan;
 use crate::projection;
 use crate::scene::Scene;
@@ -71,8 +71,8 @@ impl ErrorRecord {
         let Self { bound, found, pixels, step, classification, termination, .. } = self;
         let by = if *classification == Classification::Post { "post-classified" } else { "pre-integrated" };
         format!(
-            "an error of at most {bound:.3e} is met by {by} samples {step} voxels apart with T = {termination:.5}: of {pixels} pixels that \
-             were looked at none is off by more than {found:.1e}"
+            "an error of at most {bound:.3e} is met by {by} samples {step} voxels apart with T = {termination}: of {pixels} pixels that \
+             were looked at none is off by more than {found:.3e}"
         )
     }
 }
@@ -86,13 +86,13 @@ pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, Error
     let begin = Instant::now();
     known::check(scene)?;
     let looks = Looks { search: SmallLook::of(scene, SEARCHED)?, confirm: SmallLook::of(scene, CONFIRMED)?, bound };
-    let (mut found, mut tried) = (Vec::new(), Vec::new());
+    let (mut found, mut tried, mut refused) = (Vec::new(), Vec::new(), None);
     for classification in classifications(scene) {
         // A sample that is pre-integrated takes no less time than another.
         let no_shorter = found.iter().map(|(sampling, _): &(SamplingSettings, f64)| sampling.step).fold(0.0, f64::max);
         let mut ways = steps(scene, classification, bound);
         ways.retain(|sampling| sampling.step >= no_shorter);
-        found.extend(looks.longest(ways, &mut tried));
+        found.extend(looks.longest(ways, &mut tried, &mut refused));
     }
     let least = tried.iter().map(|tried| tried.largest).fold(f64::INFINITY, f64::min);
     let record = |(sampling, largest): (SamplingSettings, f64)| {
@@ -111,12 +111,15 @@ pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, Error
         (sampling, record)
     };
     let all: Vec<_> = found.into_iter().map(record).collect();
+    if let Some(refused) = refused.filter(|_| tried.is_empty()) {
+        return Err(refused);
+    }
     if all.is_empty() {
+        let shortest = tried.iter().map(|tried| tried.step).fold(f64::INFINITY, f64::min);
         return Err(Error::usage(
             format!("sampling.error (--error {bound})"),
             format!(
-                "is met by no step down to {} voxels: the least error that was found is {least:.1e}",
-                STEPS[STEPS.len() - 1]
+                "is met by no step that was tried, down to {shortest} voxels: the least error that was found is {least:.1e}"
             ),
             "ask for a larger error; surfaces and jumps of the transfer function are off by whole colours where a ray just misses them",
         ));
@@ -134,13 +137,24 @@ struct Looks {
 impl Looks {
     /// The first of some ways of sampling that meets the bound, and its error in a small picture; none where none does, or the scene cannot
     /// have them. Those that cannot meet it, by what the ones before them are off by, are left out.
-    fn longest(&self, ways: Vec<SamplingSettings>, tried: &mut Vec<Tried>) -> Option<(SamplingSettings, f64)> {
+    fn longest(
+        &self,
+        ways: Vec<SamplingSettings>,
+        tried: &mut Vec<Tried>,
+        refused: &mut Option<Error>,
+    ) -> Option<(SamplingSettings, f64)> {
         let mut longest = f64::INFINITY;
         for sampling in ways {
             if sampling.step > longest {
                 continue;
             }
-            let mut largest = self.search.largest(&sampling).ok()?;
+            let mut largest = match self.search.largest(&sampling) {
+                Ok(largest) => largest,
+                Err(e) => {
+                    refused.get_or_insert(e);
+                    return None;
+                }
+            };
             let mut over = SEARCHED.safety * largest / self.bound;
             if over <= 1.0 {
                 largest = self.confirm.largest(&sampling).ok()?;
@@ -198,13 +212,16 @@ fn classifications(scene: &Scene) -> Vec<Classification> {
 fn steps(scene: &Scene, classification: Classification, bound: f64) -> Vec<SamplingSettings> {
     let (asked, default) = (&scene.settings.sampling, SamplingSettings::default());
     let all: Vec<f64> = if asked.step == default.step { STEPS.to_vec() } else { vec![asked.step] };
+    // Slices have no parts of steps.
+    let on_slices = method::find(scene.settings.method.name).is_some_and(|method| method.stack().is_some());
     let of_step = |step: f64| {
-        let mut sampling = SamplingSettings { step, classification, ..asked.clone() };
+        // What is chosen is written down as if it had been asked for, and drawn again as it is.
+        let mut sampling = SamplingSettings { step, classification, error: None, ..asked.clone() };
         // A sample in the middle of its step is of the second order, and the last one stands for what there is.
         if asked.offset == default.offset && classification == Classification::Post && scene.surface.is_none() {
             sampling.offset = Offset::Midpoint;
         }
-        if asked.last == default.last {
+        if asked.last == default.last && !on_slices {
             sampling.last = Last::Partial;
         }
         if asked.termination == default.termination {

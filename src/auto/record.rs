@@ -19,6 +19,9 @@ pub struct AutoRecord {
     pub look_ms: f64,
     /// What was found, in sentences.
     pub reasons: Vec<String>,
+    /// Whether the method was named, so that its settings alone were chosen.
+    #[serde(default)]
+    pub named: bool,
     /// How steps were chosen that meet an error; null where none was asked for.
     pub error: Option<ErrorRecord>,
     pub chosen: Estimate,
@@ -59,7 +62,10 @@ impl AutoRecord {
             (n, false) => format!("for {n} frames of one view"),
             (n, true) => format!("for {n} frames of a view that moves"),
         };
-        let chosen = format!("auto chose {} {frames}", self.chosen.words());
+        let chosen = match self.named {
+            true => format!("settings were chosen of {} {frames}", self.chosen.words()),
+            false => format!("auto chose {} {frames}", self.chosen.words()),
+        };
         let runner_up = self.runner_up.iter().map(|estimate| format!("the runner-up is {}", estimate.words()));
         let error = self.error.iter().map(ErrorRecord::words);
         std::iter::once(chosen).chain(error).chain(runner_up).chain(self.reasons.iter().cloned()).collect()

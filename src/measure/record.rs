@@ -45,7 +45,7 @@
 //! | `orbit` | array of frames or null | of `bench --orbit`: see [`OrbitFrame`]; the other keys are those of the first view |
 //! | `effect` | {`file`, `hash`} or null | the user's effect that samples and surfaces went through: see [`EffectRecord`]; with one `error` is null |
 //! | `saved` | saving or null | fragments and time saved against `rc-ert`: see [`Saved`]; its `fragments` is null for methods `single-pass...`, whose fragments are rays; null for `rc-ert` itself, `cpu`, and where no `rc-ert` was run |
-//! | `auto` | choice or null | where the method was `auto`: what was chosen, why, what else was weighed and what the look took: see [`AutoRecord`]; null where a method was named |
+//! | `auto` | choice or null | where the method was `auto`, or an error was asked for: what was chosen, why, what else was weighed and what the look took: see [`AutoRecord`]; else null |
 //! | `settings` | object | the keys of a scene file, from which alone the run can be repeated; relative paths are relative to this file, as in a scene file |
 //!
 //! *counts*: {`main`, `intermediate`: totals; `main_per_pass`, `intermediate_per_pass`: arrays in the order of the

@@ -57,7 +57,7 @@ fn sampling_asked(run: &Run) -> SamplingSettings {
 /// The method with the switches that change its counts.
 pub fn label(run: &Run) -> String {
     let mut label = run.method.clone();
-    if let Some(auto) = &run.auto {
+    if let Some(auto) = run.auto.as_ref().filter(|auto| !auto.named) {
         label = format!("auto: {label}");
         if auto.samples_per_pass != run.settings.sampling.samples_per_pass {
             let _ = write!(label, " (M = {})", run.settings.sampling.samples_per_pass);

@@ -32,14 +32,15 @@ impl Limit {
     /// The limit of main fragments that no skipping goes below, of runs of one scene, each with what tells it apart; none without one of
     /// `rc` that was timed pass by pass.
     pub fn of(runs: &[(String, &Run)], ideal: u64) -> Option<Self> {
-        let all = runs.iter().map(|(_, run)| *run).find(|run| run.method == ALL && run.auto.is_none())?;
+        let is_its = |run: &&Run| run.method == ALL && run.ideal.is_some_and(|own| own.main == ideal);
+        let all = runs.iter().map(|(_, run)| *run).find(is_its)?;
         let m = |run: &Run| run.settings.sampling.samples_per_pass;
         let same = || {
             let alike = |run: &Run| m(run) == m(all) && run.passes == all.passes && run.gpu_ms_per_pass.is_some();
             runs.iter().filter(move |(_, run)| alike(run))
         };
         let clock = runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock).unwrap_or(Clock::Gpu);
-        let (pass_ms, any_is_empty) = empty_pass(same().map(|(_, run)| *run))?;
+        let (pass_ms, any_is_empty) = empty_pass(same().map(|(_, run)| *run), clock)?;
         let rest = all.milliseconds(clock)? - f64::from(all.passes) * pass_ms;
         let segment_ms = rest.max(0.0) / all.fragments.main.max(1) as f64;
         let ms = ideal as f64 * segment_ms + f64::from(all.passes) * pass_ms;
@@ -67,10 +68,13 @@ impl Limit {
     }
 }
 
-/// Milliseconds of a main pass without fragments, the median of those of some runs, and true; else of the shortest.
-fn empty_pass<'a>(runs: impl Iterator<Item = &'a Run>) -> Option<(f64, bool)> {
+/// Milliseconds by a clock of a main pass without fragments, the median of those of some runs, and true; else of the shortest. Passes are
+/// timed by the device: by another clock each has its part of the frame.
+fn empty_pass<'a>(runs: impl Iterator<Item = &'a Run>, clock: Clock) -> Option<(f64, bool)> {
     let passes = runs.flat_map(|run| {
-        let times = run.gpu_ms_per_pass.iter().flat_map(|times| &times.main).copied();
+        let device = run.milliseconds(Clock::Gpu).unwrap_or(f64::NAN);
+        let scale = run.milliseconds(clock).unwrap_or(f64::NAN) / device;
+        let times = run.gpu_ms_per_pass.iter().flat_map(|times| &times.main).map(move |ms| ms * scale);
         times.zip(run.fragments.main_per_pass.iter().copied())
     });
     let (mut empty, mut shortest) = (Vec::new(), f64::INFINITY);

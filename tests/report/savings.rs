@@ -1,7 +1,7 @@
 //! What became of the fragments saved, and how that depends on the cost of a sample.
 
 use depthleap::experiment::bench::{csv, table};
-use depthleap::measure::record::{Clock, PassTimes, Saved};
+use depthleap::measure::record::{Clock, Ideal, PassTimes, Saved};
 use depthleap::measure::saving::save;
 use depthleap::measure::{Results, Run, Timing};
 use depthleap::report::comparison::groups;
@@ -189,7 +189,7 @@ fn sweep_is_shown_once_with_its_scene() {
 
 /// A run of `passes` with those fragments and times, GPU milliseconds in all.
 fn by_passes(method: &str, main: &[u64], ms: &[f64], total: f64) -> Run {
-    let mut run = Run { gpu_ms_per_pass: None, ..run(method, main, &vec![0; main.len()]) };
+    let mut run = Run { ideal: Some(Ideal { main: 80 }), ..run(method, main, &vec![0; main.len()]) };
     run.passes = main.len() as u32;
     run.gpu_ms_per_pass = Some(PassTimes { main: ms.to_vec(), intermediate: Vec::new() });
     if let Some(times) = &mut run.gpu_ms {
@@ -219,4 +219,15 @@ fn limit_is_what_shows_at_the_cost_of_all_and_empty_passes() {
     let limit = Limit::of(&[("rc".to_owned(), &all), ("other".to_owned(), &other)], 80).expect("a limit");
     assert_eq!((limit.distances.len(), limit.any_is_empty, limit.pass_ms), (1, false, 6.0));
     assert_eq!(Limit::of(&[("nn-omni".to_owned(), &omni)], 80), None);
+    assert_eq!(Limit::of(&labelled, 81), None, "of another length of segments");
+    // By the process' clock, of which passes have their part.
+    let by_cpu = |mut run: Run| {
+        run.host.cpu = Some(Timing::once(2.0 * run.milliseconds(Clock::Gpu).unwrap()));
+        run.saved = Some(Saved { against: "rc-ert".into(), fragments: None, time: None, clock: Some(Clock::Cpu) });
+        run
+    };
+    let [all, omni] = [all, omni].map(by_cpu);
+    let limit = Limit::of(&[("rc".to_owned(), &all), ("nn-omni".to_owned(), &omni)], 80).expect("a limit");
+    assert_eq!((limit.clock, limit.pass_ms), (Clock::Cpu, 2.0));
+    assert!((limit.ms - 16.0).abs() < 1e-12, "{limit:?}");
 }

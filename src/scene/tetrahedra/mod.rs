@@ -113,7 +113,7 @@ impl CellWay {
     pub fn behind(self, near: f64) -> Option<Self> {
         let (from, to) = (self.from, self.to);
         if from.depth >= near {
-            return Some(self);
+            return Some(Self { begins: self.begins || from.depth == near, ..self });
         }
         let part = (near - from.depth) / (to.depth - from.depth);
         let value = from.value + part * (to.value - from.value);
