@@ -38,7 +38,7 @@ const OF_ENDS: f64 = 0.25;
 
 /// What meets an error.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ErrorRecord {
+pub struct ErrorChoice {
     /// The largest error that is asked for, of any channel.
     pub bound: f64,
     /// That of a small picture with what was chosen.
@@ -65,7 +65,7 @@ pub struct Tried {
     pub largest: f64,
 }
 
-impl ErrorRecord {
+impl ErrorChoice {
     /// What was found, in words.
     pub fn words(&self) -> String {
         let Self { bound, found, pixels, step, classification, termination, .. } = self;
@@ -82,7 +82,7 @@ impl ErrorRecord {
 ///
 /// # Errors
 /// When no exact integral of the scene is known, or no step that is tried meets the error.
-pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, ErrorRecord)>> {
+pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, ErrorChoice)>> {
     let begin = Instant::now();
     known::check(scene)?;
     let looks = Looks { search: SmallLook::of(scene, SEARCHED)?, confirm: SmallLook::of(scene, CONFIRMED)?, bound };
@@ -96,7 +96,7 @@ pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, Error
     }
     let least = tried.iter().map(|tried| tried.largest).fold(f64::INFINITY, f64::min);
     let record = |(sampling, largest): (SamplingSettings, f64)| {
-        let record = ErrorRecord {
+        let record = ErrorChoice {
             bound,
             found: largest,
             pixels: looks.confirm.exact.len() as u32,

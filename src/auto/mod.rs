@@ -14,7 +14,7 @@ mod work;
 pub use choose::{DeviceFacts, MethodFacts, choose, settle};
 pub use coarse::Coarse;
 pub use cost::{build_ms, frame_ms};
-pub use error::{ErrorRecord, Tried};
+pub use error::{ErrorChoice, Tried};
 pub use look::{Look, LookRay, Seen};
 pub use record::{AutoRecord, Estimate};
 pub use work::{Tuning, Work};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::cost::served;
-use super::error::ErrorRecord;
+use super::error::ErrorChoice;
 use super::work::Work;
 use crate::method::METHODS;
 
@@ -23,7 +23,7 @@ pub struct AutoRecord {
     #[serde(default)]
     pub named: bool,
     /// How steps were chosen that meet an error; null where none was asked for.
-    pub error: Option<ErrorRecord>,
+    pub error: Option<ErrorChoice>,
     pub chosen: Estimate,
     /// The best of another method; null where no other draws the scene.
     pub runner_up: Option<Estimate>,
@@ -67,7 +67,7 @@ impl AutoRecord {
             false => format!("auto chose {} {frames}", self.chosen.words()),
         };
         let runner_up = self.runner_up.iter().map(|estimate| format!("the runner-up is {}", estimate.words()));
-        let error = self.error.iter().map(ErrorRecord::words);
+        let error = self.error.iter().map(ErrorChoice::words);
         std::iter::once(chosen).chain(error).chain(runner_up).chain(self.reasons.iter().cloned()).collect()
     }
 }

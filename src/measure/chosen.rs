@@ -1,5 +1,7 @@
 //! What `auto` becomes on a device.
 
+use std::cell::RefCell;
+
 use crate::auto::{AutoRecord, DeviceFacts, MethodFacts, settle as settle_for};
 use crate::error::Result;
 use crate::frame::{SelfCheck, Verdict, culls_late};
@@ -7,14 +9,36 @@ use crate::method::METHODS;
 use crate::part::rows::Method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::Cull;
+use crate::scene::settings::{Cull, Settings};
 use crate::vulkan::Device;
 
-/// Puts a method and its settings in place of `auto`, and steps that meet an error; other scenes stay as they are.
-///
-/// # Errors
-/// When no method draws the scene.
-pub fn settle(scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
+/// What was chosen for the scenes of a run: settings as they were asked for and as they became, and why. An error that is asked for takes
+/// a look of its time.
+#[derive(Default)]
+pub struct Settled(RefCell<Vec<(Settings, Settings, AutoRecord)>>);
+
+impl Settled {
+    /// Puts a method and its settings in place of `auto`, and steps that meet an error, once for the same settings; other scenes stay as they
+    /// are.
+    ///
+    /// # Errors
+    /// When no method draws the scene, or no step meets the error.
+    pub fn settle(&self, scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
+        let known = |(asked, ..): &&(Settings, Settings, AutoRecord)| *asked == scene.settings;
+        let found = self.0.borrow().iter().find(known).cloned();
+        if let Some((_, settings, record)) = found {
+            scene.settings = settings;
+            return Ok(Some(record));
+        }
+        let asked = scene.settings.clone();
+        let record = settle(scene, on)?;
+        let chosen = record.clone().map(|record| (asked, scene.settings.clone(), record));
+        self.0.borrow_mut().extend(chosen);
+        Ok(record)
+    }
+}
+
+fn settle(scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
     if !scene.settings.method.name.is_auto() && scene.settings.sampling.error.is_none() {
         return Ok(None);
     }

@@ -1,11 +1,10 @@
 //! Runs the methods of one scene on a device and fills a [`Run`] for each: counts and times from separate frames,
 //! after warm-ups, the methods' repeats interleaved so that a busy machine troubles all of them alike.
 
-use std::cell::RefCell;
 use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
-use super::chosen::settle;
+use super::chosen::Settled;
 use super::error::compare;
 use super::fragment_kind::FragmentKind;
 use super::frame_times::{gpu_times, host_times, pass_times};
@@ -64,8 +63,7 @@ pub struct Runner<'a> {
     references: BTreeMap<(&'static str, u32), CpuFrame>,
     /// The importance volume of adaptive steps, where no device has one.
     importance: Option<Arc<Importance>>,
-    /// Settings as they were asked for, what was chosen for them, and why: an error that is asked for takes a look of its time.
-    settled: RefCell<Vec<(Settings, Settings, AutoRecord)>>,
+    settled: Settled,
 }
 
 /// A scene with its plan, and what was chosen for it.
@@ -100,15 +98,8 @@ impl<'a> Runner<'a> {
     pub fn new(checked: Option<&'a Checked>, mut scene: Scene, name: String) -> Self {
         scene.unit = checked.map_or(scene.unit, |checked| checked.check.unit);
         let resident = checked.map(|c| Resident::new(&c.device));
-        Self {
-            checked,
-            scene,
-            name,
-            resident,
-            references: BTreeMap::new(),
-            importance: None,
-            settled: RefCell::default(),
-        }
+        let (references, importance, settled) = Default::default();
+        Self { checked, scene, name, resident, references, importance, settled }
     }
 
     /// Measures the scene by each of `methods`. `progress` hears what is being done.
@@ -166,26 +157,11 @@ impl<'a> Runner<'a> {
         methods.iter().try_for_each(|method| self.plan(method).map(drop))
     }
 
-    /// As [`settle`], once for the same settings.
-    fn settle(&self, scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
-        let known = |(asked, ..): &&(Settings, Settings, AutoRecord)| *asked == scene.settings;
-        let found = self.settled.borrow().iter().find(known).cloned();
-        if let Some((_, settings, record)) = found {
-            scene.settings = settings;
-            return Ok(Some(record));
-        }
-        let asked = scene.settings.clone();
-        let record = settle(scene, on)?;
-        let chosen = record.clone().map(|record| (asked, scene.settings.clone(), record));
-        self.settled.borrow_mut().extend(chosen);
-        Ok(record)
-    }
-
     fn plan(&self, method: &MethodSettings) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
         let on = self.checked.map(|checked| (&*checked.device, &checked.check));
-        let auto = self.settle(&mut scene, on)?;
+        let auto = self.settled.settle(&mut scene, on)?;
         let name = scene.settings.method.name;
         let row = method::of(name)?;
         let plan = if !row.on_device {

@@ -5,7 +5,7 @@ use super::tetrahedra::{VALUE_ROUNDING, beside_edge};
 use super::{Pixel, Twin};
 use crate::math::blend::Blend;
 use crate::scene::light::LitPoint;
-use crate::scene::tetrahedra::{CellWay, FacePoint, Met};
+use crate::scene::tetrahedra::{CellWay, FacePoint, MetInCell};
 
 /// A level that is no further from x at a face of a cell, single precision may have within the cell or beyond that face, where the gradient
 /// is another one.
@@ -49,7 +49,7 @@ impl Twin<'_> {
     }
 
     /// Joins what shows of a surface in a cell.
-    fn put_met(&self, pixel: &mut Pixel, way: &CellWay, met: &Met) {
+    fn put_met(&self, pixel: &mut Pixel, way: &CellWay, met: &MetInCell) {
         let (Some(mesh), Some(surface)) = (self.scene.tetrahedra.as_deref(), &self.scene.surface) else { return };
         let (level, gradient) = (surface.levels[met.level], mesh.gradient(way.cell));
         let ray = self.rays.of(pixel.column, pixel.row);

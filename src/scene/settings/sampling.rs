@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::section::section;
+use crate::error::{self, Error};
 use crate::scene::limits::Limits;
 
 /// Steps that are neither below what single precision resolves nor longer than any volume, in voxels.
@@ -92,9 +93,9 @@ impl SamplingSettings {
     ///
     /// # Errors
     /// When it is to be chosen.
-    pub fn as_written(&self) -> crate::error::Result<()> {
+    pub fn as_written(&self) -> error::Result<()> {
         let Some(bound) = self.error else { return Ok(()) };
-        Err(crate::error::Error::usage(
+        Err(Error::usage(
             format!("sampling.error (--error {bound})"),
             "chooses steps for one method, and here several methods or steps are compared",
             "use render, whose JSON says what it has chosen, and give that here",

@@ -13,7 +13,7 @@ mod walk;
 pub use boundary::CellsView;
 pub use connect::{FACES, NOTHING};
 pub use grid::{Grid, one_of_each};
-pub use surface::{CellGradient, Met};
+pub use surface::{CellGradient, MetInCell};
 pub use walk::{CellWay, Entry, FacePoint};
 
 use glam::DVec3;

@@ -15,7 +15,7 @@ pub struct CellGradient {
 
 /// Where a ray meets an iso-surface within a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
+pub struct MetInCell {
     /// The surface, by its number.
     pub level: usize,
     /// The part of the way through the cell in front of it.
@@ -43,14 +43,14 @@ impl Tetrahedra {
 impl CellWay {
     /// The iso-surfaces of rising values, as x, that a ray meets on this way, in their order: all that it crosses, from below a value to it
     /// or back; where the ray begins the innermost that it begins within.
-    pub fn meets(&self, levels: &[f64]) -> Vec<Met> {
+    pub fn meets(&self, levels: &[f64]) -> Vec<MetInCell> {
         let around = |x: f64| levels.partition_point(|level| *level <= x);
         let (within, to) = (around(self.from.value), around(self.to.value));
-        let begins = (self.begins && within > 0).then(|| Met { level: within - 1, share: 0.0, at: self.from });
+        let begins = (self.begins && within > 0).then(|| MetInCell { level: within - 1, share: 0.0, at: self.from });
         let crossed = |level: usize| {
             let share = (levels[level] - self.from.value) / (self.to.value - self.from.value);
             let depth = self.from.depth + share * (self.to.depth - self.from.depth);
-            Met { level, share, at: FacePoint { depth, value: levels[level] } }
+            MetInCell { level, share, at: FacePoint { depth, value: levels[level] } }
         };
         begins.into_iter().chain((within..to).map(crossed)).chain((to..within).rev().map(crossed)).collect()
     }
