@@ -32,9 +32,11 @@ impl Limit {
     /// The limit of main fragments that no skipping goes below, of runs of one scene, each with what tells it apart; none without one of
     /// `rc` that was timed pass by pass.
     pub fn of(runs: &[(String, &Run)], ideal: u64) -> Option<Self> {
-        let is_its = |run: &&Run| run.method == ALL && run.ideal.is_some_and(|own| own.main == ideal);
-        let all = runs.iter().map(|(_, run)| *run).find(is_its)?;
         let m = |run: &Run| run.settings.sampling.samples_per_pass;
+        // The runs that skip have a bound, of segments as long as theirs; that of all segments has none.
+        let bounds =
+            |of: &Run| runs.iter().any(|(_, run)| run.ideal.is_some_and(|own| own.main == ideal) && m(run) == m(of));
+        let all = runs.iter().map(|(_, run)| *run).find(|run| run.method == ALL && bounds(run))?;
         let same = || {
             let alike = |run: &Run| m(run) == m(all) && run.passes == all.passes && run.gpu_ms_per_pass.is_some();
             runs.iter().filter(move |(_, run)| alike(run))
