@@ -4,7 +4,7 @@
 //! The unit is 2^-13 of a squared voxel of the finest spacing. A side of a cell is squared and rounded down to it, which
 //! keeps sums of squares lower bounds and changes nothing where spacings are equal.
 
-use super::grid::{FAR, SLACK};
+use super::grid::{FAR, Grid, SLACK, byte_of};
 
 /// Units in a squared voxel.
 pub const UNIT: u32 = 1 << 13;
@@ -40,4 +40,14 @@ pub fn free_voxels(square: u32) -> u8 {
     let voxels = (f64::from(square) / f64::from(UNIT)).sqrt() - SLACK;
     // The cast saturates.
     (voxels as u8).min(FAR)
+}
+
+/// The bytes of cells that are not interesting, by the square in squared sides of cells, where these are cubes and rows of them
+/// are no longer than such squares can number.
+pub fn bytes_by_cells(grid: &Grid) -> Option<Vec<u8>> {
+    let [x, y, z] = grid.sides.to_array().map(weight);
+    let fits = grid.cells.iter().all(|cells| *cells <= usize::from(u16::MAX));
+    let voxels = |square: u64| free_voxels((square * u64::from(x)).min(FAR_SQUARED.into()) as u32);
+    let byte = |square: u16| byte_of(false, voxels(square.into()));
+    (fits && x == y && y == z).then(|| (0..=u16::MAX).map(byte).collect())
 }
