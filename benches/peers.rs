@@ -13,7 +13,7 @@ use depthleap::frame::self_check;
 use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::measure::{Picture, Statistics};
 use depthleap::part::rows::{Ahead, Method};
-use depthleap::scene::settings::{Distance, MethodSettings, Settings};
+use depthleap::scene::settings::{Distance, MethodSettings, Settings, Tiles};
 use depthleap::scene::transfer::Knot;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Camera, Scene};
@@ -143,6 +143,7 @@ fn ours(checked: &Checked, scene: &Scene, name: &str) -> Result<Vec<Ours>> {
             name: method,
             lookups: estimate.lookups,
             cell: estimate.cell,
+            tiles: Tiles::Live,
             ..scene.settings.method.clone()
         };
         runner.vary(|settings| settings.sampling.samples_per_pass = estimate.samples_per_pass);

@@ -8,12 +8,13 @@ use super::look::Look;
 use super::record::{AutoRecord, Estimate};
 use super::work::{Tuning, WayOfWorking, Work};
 use crate::error::{Error, Result};
+use crate::feature::tiles;
 use crate::method::{self, METHODS, SINGLE_PASS};
 use crate::part::form::Form;
 use crate::part::rows::{Ahead, Method};
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, Mark, MethodSettings, SamplingSettings, Settings};
+use crate::scene::settings::{Cull, Mark, MethodSettings, SamplingSettings, Settings, Tiles};
 
 /// What is known of a device when a method is chosen for it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,6 +91,10 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
     (settings.method.lookups, settings.method.cell) = (*lookups, *cell);
     settings.method.name =
         method.parse().map_err(|e: String| Error::usage("--method auto", e, "please report this"))?;
+    let leaves_out = method::find(settings.method.name).is_some_and(tiles::are_left_out_by);
+    if settings.method.tiles == Tiles::Auto && leaves_out && tiles::serve(scene).is_ok() {
+        scene.settings.method.tiles = Tiles::Live;
+    }
     record.look_ms = begin.elapsed().as_secs_f64() * MILLISECONDS;
     Ok(Some(record))
 }
@@ -314,7 +319,10 @@ fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
     let mut all = Vec::new();
     for &samples_per_pass in &ms {
         for &lookups in &lookups {
-            all.extend(cells.iter().map(|&cell| Tuning { samples_per_pass, lookups, cell, ..asked }));
+            // A ray needs some samples to get out of a cell in which something shows: looks before that find nothing new.
+            let often = |cell: u32| in_looks && ms.len() > 1 && samples_per_pass < 2 * cell;
+            let cells = cells.iter().filter(|cell| !often(**cell));
+            all.extend(cells.map(|&cell| Tuning { samples_per_pass, lookups, cell, ..asked }));
         }
     }
     all

@@ -44,10 +44,10 @@ const LOOP: Costs = Costs {
     pixel: 360.0,
     covered: 0.0,
     main: 0.0,
-    sample: SampleCosts { color: 11.0, preintegrated: 90.0, value: 7.7, surface: 140.0 },
+    sample: SampleCosts { color: 5.0, preintegrated: 84.0, value: 4.0, surface: 134.0 },
     intermediate: 0.0,
-    block: 25.0,
-    distance: 20.0,
+    block: 50.0,
+    distance: 15.0,
     surface: [1500.0, 0.0],
 };
 
@@ -93,13 +93,13 @@ const SLICES: Costs = Costs {
 };
 
 /// Nanoseconds that a fetch takes more for each doubling of the texels beyond [`CACHED`]: fewer are found in the caches.
-const FETCH_OF_TWICE: f64 = 1.0;
+const FETCH_OF_TWICE: f64 = 0.6;
 /// Texels of a texture that stays in the caches.
 const CACHED: f64 = (1 << 15) as f64;
 
-/// Nanoseconds that a look-up takes more in a structure that no cache holds, and bytes of one that a cache does.
-const FETCH_OF_MEMORY: f64 = 10.0;
-const OF_CACHES: f64 = (1 << 24) as f64;
+/// Nanoseconds that a look-up takes more for each doubling of the structure's bytes beyond [`CACHED`]: those of rays beside each other
+/// are farther apart than the texels of their samples.
+const LOOKUP_OF_TWICE: f64 = 4.0;
 /// Bytes of a cell that tells octants apart.
 const OCTANT_BYTES: f64 = 8.0;
 
@@ -129,7 +129,7 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
             let cells = voxels / f64::from(tuning.cell).powi(3);
             let octants = method.ahead == Ahead::Distances(Distance::Directional);
             let bytes = if octants { OCTANT_BYTES * cells } else { cells };
-            costs.distance + far(cells) + FETCH_OF_MEMORY * (1.0 - OF_CACHES / bytes.max(OF_CACHES))
+            costs.distance + LOOKUP_OF_TWICE * (bytes / CACHED).log2().max(0.0)
         }
     };
     let parts = [
@@ -169,10 +169,10 @@ fn fetches(scene: &Scene) -> [f64; 2] {
 }
 
 /// Nanoseconds a voxel to find ranges of blocks, and a cell to find distances.
-const RANGE: f64 = 9.0;
-const OMNI: f64 = 58.0;
-const DIRECTIONAL: f64 = 235.0;
-const ALONG: f64 = 270.0;
+const RANGE: f64 = 4.0;
+const OMNI: f64 = 12.0;
+const DIRECTIONAL: f64 = 43.0;
+const ALONG: f64 = 110.0;
 
 /// Milliseconds to build what a method looks up, estimated.
 pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {

@@ -4,13 +4,13 @@ use glam::DVec3;
 
 use super::coarse::Coarse;
 use crate::error::Result;
-use crate::feature::rays_may_end;
+use crate::feature::{rays_may_end, tiles};
 use crate::math::blend::Blend;
 use crate::math::opacity::corrected_opacity;
 use crate::math::ray::{ViewRay, cut_interval};
 use crate::projection::{self, Ends, Shown};
 use crate::scene::gathered::Gathered;
-use crate::scene::settings::Alpha;
+use crate::scene::settings::{Alpha, Tiles};
 use crate::scene::view::View;
 use crate::scene::{Field, Scene};
 use crate::structure::cells::all_interesting;
@@ -42,6 +42,8 @@ pub struct Look {
     pub may_end: bool,
     /// Whether there is anything to skip, as planners find it.
     pub any_is_free: bool,
+    /// Whether tiles of pixels behind which nothing shows may be left out.
+    pub tiles_serve: bool,
 }
 
 /// What is on a coarse ray.
@@ -106,6 +108,7 @@ impl Look {
             longest: view.longest_samples,
             may_end: may_end(scene, &view),
             any_is_free: !scene.settings.method.planner || !all_interesting(scene),
+            tiles_serve: scene.settings.method.tiles != Tiles::All && tiles::serve(scene).is_ok(),
             clusters,
             coarse,
         })

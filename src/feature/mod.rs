@@ -34,6 +34,7 @@ pub mod refraction;
 pub mod shells;
 mod start;
 pub mod surface;
+pub mod tiles;
 mod transfer_function;
 
 pub use adaptive::ADAPTIVE;

@@ -7,6 +7,7 @@ mod polygons;
 mod screen;
 mod shells;
 mod slices;
+mod tiles;
 mod volume_box;
 
 pub use boundary::BOUNDARY;
@@ -14,4 +15,5 @@ pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
 pub use shells::{SHELL_SURFACES, SHELLS};
 pub use slices::{SLICES, SLICES_CUT};
+pub use tiles::LIVE_TILES;
 pub use volume_box::{BOX_BACK, BOX_FRONT};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::constants;
 use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, effect, lights, surface};
-use crate::geometry::BOX_FRONT;
+use crate::geometry::{BOX_FRONT, LIVE_TILES};
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
 use crate::part::resource::Resource;
@@ -12,16 +12,21 @@ use crate::part::rows::{Context, Hook};
 use crate::part::{Constant, Draw, Group, PixelDispatch, Step, Work};
 use crate::resource;
 use crate::scene::settings::Accumulate;
-use crate::twin;
+use crate::twin::{self, TwinPass};
 
-/// The loop as a fragment shader, for every pixel that the box's front faces cover.
+/// The loop as a fragment shader, for every pixel that the box's front faces cover, or of the tiles that are drawn.
 pub fn single_pass(context: &Context) -> Step {
     let of_loop = RayLoop::of(context);
-    let mut accesses = vec![Usage::Vertices.of(resource::BOX)];
+    let (geometry, twin): (_, TwinPass) = match context.view.tiles {
+        // Tiles reach beyond the box.
+        Some(_) => (&LIVE_TILES, twin::single_pass::computed),
+        None => (&BOX_FRONT, twin::single_pass::single_pass),
+    };
+    let mut accesses = vec![Usage::Vertices.of(geometry.vertices)];
     accesses.extend(of_loop.read(Usage::Sampled));
     let drawn = if of_loop.goes_on { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(resource::ACCUMULATED));
-    let mut draw = Draw::plain(&BOX_FRONT, "single_pass.frag", twin::single_pass::single_pass);
+    let mut draw = Draw::plain(geometry, "single_pass.frag", twin);
     draw.define(of_loop.defines);
     draw.insert(effect::insert(context));
     draw.specialize(of_loop.constants);

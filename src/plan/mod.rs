@@ -24,7 +24,7 @@ use crate::scene::gathered::Gathered;
 use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
-use crate::structure::Lookup;
+use crate::structure::{Lookup, content};
 use builds::{Asset, Build, Builds};
 use left_out::{left_out, whole_diagonal};
 
@@ -147,6 +147,7 @@ pub fn check(scene: &Scene) -> Result<()> {
     feature::effect::check(scene)?;
     feature::refraction::check(scene)?;
     feature::backdrop::check(scene)?;
+    feature::tiles::check(scene, method)?;
     feature::gradients::check(scene)
 }
 
@@ -173,6 +174,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
             view.sliced(scene, stack, slices)?
         }
         None if method.goes_through_cells() => view.through_cells(scene),
+        None if feature::tiles::only_live(scene, method) => view.in_tiles(content::boxes(scene).into_iter()),
         None => view,
     };
     if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {

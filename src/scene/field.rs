@@ -60,6 +60,7 @@ pub struct Field {
     extremes: OnceLock<[f32; 2]>,
     contrast: OnceLock<f64>,
     value_extremes: OnceLock<Option<[f64; 2]>>,
+    block_ranges: OnceLock<Vec<[f32; 2]>>,
 }
 
 impl Field {
@@ -108,6 +109,7 @@ impl Field {
             extremes: OnceLock::new(),
             contrast: OnceLock::new(),
             value_extremes: OnceLock::new(),
+            block_ranges: OnceLock::new(),
             volume,
         };
         if bad > 0 && how.nan == NanPolicy::Hole {
@@ -140,6 +142,11 @@ impl Field {
     /// Whether x is 0 everywhere, since the scalar range is a single value.
     pub fn has_empty_range(&self) -> bool {
         self.range[0] == self.range[1]
+    }
+
+    /// Least and greatest x in blocks of cells, which whoever asks first finds.
+    pub fn block_ranges(&self, find: impl FnOnce(&Self) -> Vec<[f32; 2]>) -> &[[f32; 2]] {
+        self.block_ranges.get_or_init(|| find(self))
     }
 
     /// The least and the greatest value.

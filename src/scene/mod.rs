@@ -33,6 +33,7 @@ pub mod slices;
 pub mod surface;
 pub mod tetrahedra;
 pub mod texture;
+pub mod tiles;
 pub mod transfer;
 pub mod view;
 pub mod volume;

@@ -11,6 +11,7 @@ use super::region::Region;
 use super::slice_polygons::SlicePolygons;
 use super::slices::{SliceSurface, Slices, Stack};
 use super::tetrahedra::{CellsView, Tetrahedra};
+use super::tiles::Tiles;
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
 use crate::math::ray::ViewRays;
@@ -31,6 +32,8 @@ pub struct View {
     pub slices: Option<Arc<Slices>>,
     /// What rays meet of a mesh of cells; none for methods that do not go through them.
     pub cells: Option<Arc<CellsView>>,
+    /// Tiles of pixels whose rays may come to something that shows; none where all are drawn.
+    pub tiles: Option<Arc<Tiles>>,
     /// Cut when they are first asked for: of many slices that takes longer than all else of a plan.
     slice_polygons: Arc<OnceLock<SlicePolygons>>,
 }
@@ -61,8 +64,8 @@ impl View {
             region => region,
         };
         let longest_samples = longest_samples(scene, &rays, region);
-        let (slices, cells, slice_polygons) = (None, None, Arc::default());
-        Ok(Self { size, rays, front, back, region, longest_samples, slices, cells, slice_polygons })
+        let (slices, cells, tiles, slice_polygons) = (None, None, None, Arc::default());
+        Ok(Self { size, rays, front, back, region, longest_samples, slices, cells, tiles, slice_polygons })
     }
 
     /// The axis of the stack of 2D textures that slices are taken from; none where they are taken from the volume, or there are none.
@@ -86,6 +89,12 @@ impl View {
     pub fn through_cells(self, scene: &Scene) -> Self {
         let of = |mesh: &Arc<Tetrahedra>| Arc::new(CellsView::new(mesh, &self.rays, self.region));
         Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
+    }
+
+    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space; of all where
+    /// that is none.
+    pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
+        Self { tiles: Tiles::around(&self.rays, self.size, self.region, boxes).map(Arc::new), ..self }
     }
 
     /// What shows of the slices of the scene that this is a view of; nothing where there are none.

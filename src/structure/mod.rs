@@ -4,6 +4,7 @@ mod axis;
 pub mod blocks;
 pub mod bundle;
 pub mod cells;
+pub mod content;
 pub mod distance;
 pub mod gradients;
 pub mod grid;

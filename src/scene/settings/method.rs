@@ -83,6 +83,23 @@ section! {
     /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     lookups: u32 = 1, within Limits::from_to(1.0, 1024.0, "a number {}");
+
+    /// single-pass-*: the tiles of 8 x 8 pixels that are drawn
+    #[arg(long, value_name = "WHICH")]
+    tiles: Tiles = Tiles::Auto;
+}
+
+/// The tiles of pixels that are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Tiles {
+    /// Those behind which something may show, where the method is chosen by auto and leaps over empty space, else all.
+    #[default]
+    Auto,
+    /// All that the volume's box covers.
+    All,
+    /// Those behind which something may show: no ray is begun elsewhere, and nothing else counts as a fragment.
+    Live,
 }
 
 /// Who cuts slices to polygons.

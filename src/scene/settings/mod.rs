@@ -51,7 +51,7 @@ pub use key::Key;
 pub use layers::PartialSegments;
 pub use light::{LightSettings, MOST_LIGHTS};
 pub use mesh::MeshSettings;
-pub use method::{Builder, CELLS, SliceCut};
+pub use method::{Builder, CELLS, SliceCut, Tiles};
 pub use parse::number as finite_number;
 pub use placed::Placed;
 pub use refraction::Refraction;

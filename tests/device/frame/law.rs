@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use depthleap::feature::tiles;
 use depthleap::frame::Verdict;
 use depthleap::method::{
     self, METHODS, SINGLE_PASS, SINGLE_PASS_COMPUTE, SLICES_2D_FTB, SLICES_3D_FTB, SLICES_SHELLS_FTB,
@@ -12,7 +13,7 @@ use depthleap::part::rows::Method;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{
     Accumulate, CELLS, Classification, ClipSettings, Find, GradientTexture, Gradients, Last, LightSettings,
-    MeshSettings, MethodName, Offset, Refine, Settings,
+    MeshSettings, MethodName, Offset, Refine, Settings, Tiles,
 };
 use depthleap::structure::Lookup;
 use depthleap::vulkan::Device;
@@ -182,16 +183,20 @@ fn leaps(
     change: fn(&mut Settings),
     turn: usize,
 ) {
-    let mut picture = |method: &Method| {
+    let mut picture = |method: &Method, drawn: Tiles| {
         let mut scene = by(scene, method.name());
         change(&mut scene.settings);
+        scene.settings.method.tiles = drawn;
         let forms = right_forms(device, method.name());
         stage.shoot(&scene, forms[turn % forms.len()]).picture
     };
-    let of_rule = picture(rule);
+    let of_rule = picture(rule, Tiles::All);
     for method in METHODS.into_iter().filter(|method| method.looks_ahead() && method.unskipped().name == rule.name) {
-        let differs = differing(&picture(method), &of_rule);
-        assert_eq!(differs, 0, "{}: {differs} pixels are not those of {}", method.name, rule.name);
+        let in_tiles = tiles::are_left_out_by(method) && tiles::serve(scene).is_ok();
+        for drawn in [Some(Tiles::All), in_tiles.then_some(Tiles::Live)].into_iter().flatten() {
+            let differs = differing(&picture(method, drawn), &of_rule);
+            assert_eq!(differs, 0, "{}, {drawn:?} tiles: {differs} pixels are not those of {}", method.name, rule.name);
+        }
     }
 }
 

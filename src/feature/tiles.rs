@@ -1,0 +1,48 @@
+//! Tiles of pixels behind which nothing shows, and whose rays need not be begun.
+
+use crate::error::{Error, Result};
+use crate::part::rows::{Method, Traversal};
+use crate::projection;
+use crate::scene::Scene;
+use crate::scene::settings::Tiles;
+
+/// Whether a method leaves out whole tiles where it is asked to: loops that know what lies ahead; others draw all.
+pub fn are_left_out_by(method: &Method) -> bool {
+    method.traversal == Traversal::FragmentLoop && method.looks_ahead()
+}
+
+/// Whether a method draws only tiles behind which something may show.
+pub fn only_live(scene: &Scene, method: &Method) -> bool {
+    scene.settings.method.tiles == Tiles::Live && are_left_out_by(method)
+}
+
+/// Whether all rays of other tiles leave the picture as it is.
+///
+/// # Errors
+/// When a ray that comes to nothing has something to show.
+pub fn serve(scene: &Scene) -> Result<()> {
+    let refused = |problem: &str, remedy: &str| Err(Error::usage("method.tiles (--tiles live)", problem, remedy));
+    let row = projection::of(&scene.settings);
+    match () {
+        () if row.shows_values() => refused(
+            &format!("are those of what shows, and rays have values elsewhere under --projection {}", row.name),
+            "use composite, or leave it out",
+        ),
+        () if scene.backdrop.is_some() || scene.settings.effects.refraction.is_some() => refused(
+            "are those of straight rays that show nothing behind the volume",
+            "leave it out, or effects.refraction and effects.background",
+        ),
+        () if scene.polygons.show() || !scene.polygons.clips().is_empty() => {
+            refused("are those of the volume, and meshes show besides", "leave it out, or the meshes")
+        }
+        () => Ok(()),
+    }
+}
+
+/// Whether tiles that are asked for can be left out.
+///
+/// # Errors
+/// As [`serve`].
+pub fn check(scene: &Scene, method: &Method) -> Result<()> {
+    if only_live(scene, method) { serve(scene) } else { Ok(()) }
+}
