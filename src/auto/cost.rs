@@ -47,7 +47,7 @@ const LOOP: Costs = Costs {
     sample: SampleCosts { color: 5.0, preintegrated: 84.0, value: 4.0, surface: 134.0 },
     intermediate: 0.0,
     block: 50.0,
-    distance: 15.0,
+    distance: 25.0,
     surface: [1500.0, 0.0],
 };
 
@@ -97,9 +97,11 @@ const FETCH_OF_TWICE: f64 = 0.6;
 /// Texels of a texture that stays in the caches.
 const CACHED: f64 = (1 << 15) as f64;
 
-/// Nanoseconds that a look-up takes more for each doubling of the structure's bytes beyond [`CACHED`]: those of rays beside each other
-/// are farther apart than the texels of their samples.
-const LOOKUP_OF_TWICE: f64 = 4.0;
+/// Nanoseconds that a look-up takes more for each doubling of the bytes of a structure beyond [`OF_CACHES`]: rays beside each other look
+/// at places that are farther apart than their samples.
+const LOOKUP_OF_TWICE: f64 = 8.0;
+/// Bytes of a structure that stays in the caches.
+const OF_CACHES: f64 = (1 << 20) as f64;
 /// Bytes of a cell that tells octants apart.
 const OCTANT_BYTES: f64 = 8.0;
 
@@ -129,7 +131,7 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
             let cells = voxels / f64::from(tuning.cell).powi(3);
             let octants = method.ahead == Ahead::Distances(Distance::Directional);
             let bytes = if octants { OCTANT_BYTES * cells } else { cells };
-            costs.distance + LOOKUP_OF_TWICE * (bytes / CACHED).log2().max(0.0)
+            costs.distance + LOOKUP_OF_TWICE * (bytes / OF_CACHES).log2().max(0.0)
         }
     };
     let parts = [

@@ -321,8 +321,8 @@ impl Walk<'_> {
         let voxels = match (cells, seen.shows) {
             (_, true) => return 0,
             // Something shows near by, of which the grid does not say where.
-            (0, false) => (0.5 * self.look.coarse.side as f64).min(NEAR_BY) - (cell - 1.0),
-            (cells, false) => (f64::from(cells) - 0.5) * self.look.coarse.side as f64 - (cell - 1.0),
+            (0, false) => (0.5 * self.look.coarse.side as f64).min(NEAR_BY) - OF_CELL * (cell - 1.0),
+            (cells, false) => (f64::from(cells) - 0.5) * self.look.coarse.side as f64 - OF_CELL * (cell - 1.0),
         };
         (voxels / self.ray.step).max(0.0) as usize
     }
@@ -332,6 +332,9 @@ impl Walk<'_> {
         self.ray.seen[i..].iter().take_while(|seen| !seen.shows).count()
     }
 }
+
+/// The part of a cell by which distances between cells are shorter than those between places, of each voxel that it is longer.
+const OF_CELL: f64 = 0.75;
 
 /// Voxels to what shows from within a cell in which something shows elsewhere, at the most about.
 const NEAR_BY: f64 = 2.0;

@@ -11,6 +11,7 @@ pub mod choice;
 pub mod claim;
 pub mod comparison;
 pub mod cost;
+pub mod growth;
 pub mod html;
 pub mod limit;
 pub mod number;

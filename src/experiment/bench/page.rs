@@ -9,6 +9,7 @@ use crate::measure::Results;
 use crate::probe::Probe;
 use crate::report::comparison::groups;
 use crate::report::cost::{Sweep, extra_fetches, least_cost};
+use crate::report::growth::Growth;
 use crate::report::html::{Html, Intro, Pictures, escape};
 use crate::report::{branching, choices, claims, verdict};
 
@@ -35,6 +36,9 @@ pub fn page(results: &Results, probe: Option<&Probe>, pictures: Pictures) -> Res
             let sweep = Sweep::of(group, &groups);
             scene::section(&mut page, group, sweep.as_ref(), &results.pictures, pictures)?;
         }
+    }
+    for growth in Growth::all(&groups) {
+        scene::growth(&mut page, &growth)?;
     }
     if let Some(found) = probe {
         probe::section(&mut page, found);

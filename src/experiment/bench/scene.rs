@@ -8,9 +8,10 @@ use crate::measure::record::{OrbitFrame, PictureRecord, Run};
 use crate::report::choice::weighed;
 use crate::report::comparison::{self, RunGroup, label};
 use crate::report::cost::Sweep;
+use crate::report::growth::Growth;
 use crate::report::html::{Html, Pictures, escape};
 use crate::report::number::{bytes, milliseconds, thousands};
-use crate::report::plot::{changes_svg, cost_svg, fragments_svg, orbit_svg, times_svg};
+use crate::report::plot::{changes_svg, cost_svg, fragments_svg, growth_svg, orbit_svg, times_svg};
 use crate::report::table::{Column, Table};
 use crate::scene::texture::Within;
 
@@ -76,6 +77,26 @@ pub fn section(
     for (_, run) in &group.runs {
         page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
     }
+    page.raw("</section>\n");
+    Ok(())
+}
+
+/// Times of several scenes against what shows in them.
+///
+/// # Errors
+/// When a plot cannot be drawn.
+pub fn growth(page: &mut Html, growth: &Growth) -> Result<()> {
+    page.raw("<section>\n");
+    page.tag("h2", "Time against what shows");
+    page.plot(
+        &growth_svg(growth)?,
+        "Time of a frame against the segments that show something",
+        "A mark for each scene, which are the same but for their volumes; lines are those of least squares. Where time follows what shows, and not \
+         the size of the volume, marks lie on their line.",
+    );
+    page.table(&growth.table());
+    let names: Vec<&str> = growth.scenes.iter().map(|(name, _)| name.as_str()).collect();
+    page.tag("p", &format!("Scenes in the order of their segments: {}.", names.join("; ")));
     page.raw("</section>\n");
     Ok(())
 }

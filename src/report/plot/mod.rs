@@ -5,6 +5,7 @@ mod changes;
 mod cost;
 pub mod curves;
 mod fragments;
+mod growth;
 mod times;
 
 use std::ops::Range;
@@ -17,6 +18,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 pub use changes::changes_svg;
 pub use cost::cost_svg;
 pub use fragments::{fragments_svg, orbit_svg};
+pub use growth::growth_svg;
 pub use times::times_svg;
 
 use crate::error::{Error, Result};

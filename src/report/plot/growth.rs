@@ -1,0 +1,76 @@
+//! Time of a frame against the segments that show something, a mark for each scene and a line for each method.
+
+use plotters::prelude::*;
+
+use super::fragments::legend;
+use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, mark, svg};
+use crate::error::Result;
+use crate::measure::record::Clock;
+use crate::report::growth::Growth;
+use crate::report::number::thousands;
+
+const HEIGHT: u32 = 480;
+const LEGEND_LINE: u32 = 22;
+
+/// Places along an axis, about, and the part of an axis that is left beyond the last mark.
+const PLACES: f64 = 6.0;
+const ROOM: f64 = 1.05;
+
+/// # Errors
+/// When the drawing fails, which only a fault of this program explains.
+pub fn growth_svg(growth: &Growth) -> Result<String> {
+    let labels: Vec<String> = growth.rows.iter().map(|row| row.label.clone()).collect();
+    svg(HEIGHT.max(70 + LEGEND_LINE * labels.len() as u32), |area| {
+        let (panel, key) = area.split_horizontally(WIDTH - LEGEND_WIDTH - 60);
+        draw(&panel, growth)?;
+        legend(&key, &labels)
+    })
+}
+
+/// An axis from 0 to somewhat beyond `top`, with places at 1, 2 or 5 times a power of ten.
+fn axis(top: f64) -> Ticks {
+    let top = top.max(f64::MIN_POSITIVE) * ROOM;
+    let power = 10f64.powf((top / PLACES).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * power).find(|step| top / step <= PLACES);
+    let step = step.unwrap_or(top);
+    Ticks { range: 0.0..top, at: (0..=(top / step) as u32).map(|i| f64::from(i) * step).collect() }
+}
+
+fn draw<'a>(area: &Area<'a>, growth: &Growth) -> Drawn<'a> {
+    let segments: Vec<f64> = growth.scenes.iter().map(|(_, segments)| *segments as f64).collect();
+    let last = segments.last().copied().unwrap_or(1.0);
+    let times = growth.rows.iter().flat_map(|row| row.times.iter().copied());
+    let clock = match growth.clock {
+        Clock::Cpu => "CPU time of a frame, ms",
+        Clock::Gpu => "device time of a frame, ms",
+        Clock::Wall => "wall time of a frame, ms",
+    };
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .x_label_area_size(44)
+        .y_label_area_size(64)
+        .build_cartesian_2d(axis(last), axis(times.fold(0.0, f64::max)))?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID)
+        .axis_style(INK)
+        .label_style(ink(FONT_SIZE))
+        .x_label_formatter(&|segments| thousands(segments.round() as u64))
+        .x_desc("segments that show something")
+        .y_desc(clock)
+        .axis_desc_style(ink(FONT_SIZE))
+        .draw()?;
+    let pixels = area.strip_coord_spec();
+    let (left, upper) = pixels.get_base_pixel();
+    for (i, row) in growth.rows.iter().enumerate() {
+        let at = |segments: f64| (segments, row.line.base + row.line.each * segments);
+        chart.draw_series(LineSeries::new([at(0.0), at(last)], color(i).stroke_width(2)))?;
+        for point in segments.iter().copied().zip(row.times.iter().copied()) {
+            let (x, y) = chart.backend_coord(&point);
+            mark(&pixels, (x - left, y - upper), i, 4)?;
+        }
+    }
+    Ok(())
+}
