@@ -14,7 +14,7 @@ use depthleap::scene::backdrop::{Backdrop, Pattern};
 use depthleap::scene::environment::Picture;
 use depthleap::scene::field::{Field, NanPolicy};
 use depthleap::scene::settings::{
-    Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction, ShellMode, SliceCut, Tiles,
+    Classification, ClipSettings, Distance, LightSettings, MeshSettings, Refraction, ShellMode, SliceCut,
 };
 use depthleap::scene::volume::{Volume, Voxels};
 use depthleap::scene::{Scene, Settings};
@@ -73,9 +73,7 @@ fn scenes() -> Vec<Scene> {
         s.volume.builtin = Some("tets-ball:2".to_owned());
         (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 4);
     });
-    let in_tiles = scene(|s| s.method.tiles = Tiles::Live);
     vec![
-        in_tiles,
         by_table,
         within,
         shells,

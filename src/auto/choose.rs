@@ -2,7 +2,7 @@
 
 use cpu_time::ThreadTime;
 
-use super::cost::{build_ms, frame_ms, served};
+use super::cost::{build_ms, frame_ms, served, tiles_pay};
 use super::error::meeting;
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
@@ -91,9 +91,8 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
     (settings.method.lookups, settings.method.cell) = (*lookups, *cell);
     settings.method.name =
         method.parse().map_err(|e: String| Error::usage("--method auto", e, "please report this"))?;
-    let leaves_out = method::find(settings.method.name).is_some_and(tiles::are_left_out_by);
-    if settings.method.tiles == Tiles::Auto && leaves_out && tiles::serve(scene).is_ok() {
-        scene.settings.method.tiles = Tiles::Live;
+    if record.tiles && method::find(settings.method.name).is_some_and(tiles::are_left_out_by) {
+        settings.method.tiles = Tiles::Live;
     }
     record.look_ms = begin.elapsed().as_secs_f64() * MILLISECONDS;
     Ok(Some(record))
@@ -154,7 +153,8 @@ const MILLISECONDS: f64 = 1e3;
 /// # Errors
 /// When no method draws the scene, with the reason of the last one, or the camera is not one.
 pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
-    let look = Look::of(scene)?;
+    let mut look = Look::of(scene)?;
+    look.leaves_out_tiles = leaves_out_tiles(scene, &look);
     let mut refused = None;
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
@@ -201,12 +201,25 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
         moving: method.moving,
         look_ms: 0.0,
         reasons: reasons(&look, facts, &chosen),
+        tiles: look.leaves_out_tiles,
         named: false,
         error: None,
         chosen,
         runner_up: weighed.get(1).cloned(),
         weighed,
     })
+}
+
+/// Whether methods that leave out tiles of pixels behind which nothing shows do so: where that is asked for, or left open and pays.
+fn leaves_out_tiles(scene: &Scene, look: &Look) -> bool {
+    let method = &scene.settings.method;
+    let dead = look.pixels - look.live_pixels();
+    let pays = || tiles_pay(dead, scene.field.values.len() as f64, method.frames);
+    let asked = match method.tiles {
+        Tiles::Auto => method.name.is_auto() && pays(),
+        tiles => tiles == Tiles::Live,
+    };
+    asked && tiles::serve(scene).is_ok()
 }
 
 /// Whether a method has passes that can be forced, and M samples in each.

@@ -194,6 +194,11 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
         }
 }
 
+/// Whether so many frames take longer to begin the rays of so many pixels than ranges of all voxels take to be found.
+pub fn tiles_pay(pixels: f64, voxels: f64, frames: u32) -> bool {
+    LOOP.pixel * pixels * f64::from(frames) > RANGE * voxels
+}
+
 /// How many of so many frames are served by what a method builds: all of them, or one, where it is made for a view that changes.
 pub fn served(method: &Method, frames: u32, moving: bool) -> u32 {
     let for_a_view = matches!(method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone));

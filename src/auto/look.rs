@@ -4,13 +4,13 @@ use glam::DVec3;
 
 use super::coarse::Coarse;
 use crate::error::Result;
-use crate::feature::{rays_may_end, tiles};
+use crate::feature::rays_may_end;
 use crate::math::blend::Blend;
 use crate::math::opacity::corrected_opacity;
 use crate::math::ray::{ViewRay, cut_interval};
 use crate::projection::{self, Ends, Shown};
 use crate::scene::gathered::Gathered;
-use crate::scene::settings::{Alpha, Tiles};
+use crate::scene::settings::Alpha;
 use crate::scene::view::View;
 use crate::scene::{Field, Scene};
 use crate::structure::cells::all_interesting;
@@ -42,8 +42,16 @@ pub struct Look {
     pub may_end: bool,
     /// Whether there is anything to skip, as planners find it.
     pub any_is_free: bool,
-    /// Whether tiles of pixels behind which nothing shows may be left out.
-    pub tiles_serve: bool,
+    /// Whether tiles of pixels behind which nothing shows are left out, by methods that do so: not until whoever chooses says so.
+    pub leaves_out_tiles: bool,
+}
+
+/// Pixels of live tiles for one behind which something shows, about.
+const OF_TILES: f64 = 1.3;
+
+/// Whether any ray of a cluster comes to something that shows.
+pub fn anything_shows(cluster: &[LookRay]) -> bool {
+    cluster.iter().any(|ray| ray.seen.iter().any(|seen| seen.shows))
 }
 
 /// What is on a coarse ray.
@@ -108,10 +116,16 @@ impl Look {
             longest: view.longest_samples,
             may_end: may_end(scene, &view),
             any_is_free: !scene.settings.method.planner || !all_interesting(scene),
-            tiles_serve: scene.settings.method.tiles != Tiles::All && tiles::serve(scene).is_ok(),
+            leaves_out_tiles: false,
             clusters,
             coarse,
         })
+    }
+
+    /// Pixels of tiles behind which something shows, estimated.
+    pub fn live_pixels(&self) -> f64 {
+        let live = self.clusters.iter().filter(|cluster| anything_shows(cluster)).count();
+        self.pixels * (OF_TILES * live as f64 / self.clusters.len().max(1) as f64).min(1.0)
     }
 
     /// All rays.

@@ -22,6 +22,9 @@ pub struct AutoRecord {
     /// Whether the method was named, so that its settings alone were chosen.
     #[serde(default)]
     pub named: bool,
+    /// Whether methods that leave out tiles of pixels behind which nothing shows were weighed as such.
+    #[serde(default)]
+    pub tiles: bool,
     /// How steps were chosen that meet an error; null where none was asked for.
     pub error: Option<ErrorChoice>,
     pub chosen: Estimate,

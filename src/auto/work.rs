@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::look::{Look, LookRay};
+use super::look::{Look, LookRay, anything_shows};
 use crate::feature::tiles;
 use crate::part::rows::{Ahead, Method, Traversal};
 use crate::scene::settings::Distance;
@@ -74,14 +74,10 @@ impl Work {
     pub fn of(method: &Method, tuning: Tuning, look: &Look) -> Self {
         let m = f64::from(tuning.samples_per_pass);
         let passes = if method.loops() || method.back_to_front() { 1.0 } else { (f64::from(look.longest) / m).ceil() };
-        let all_tiles = !(look.tiles_serve && tiles::are_left_out_by(method));
-        let live =
-            |cluster: &&Vec<LookRay>| all_tiles || cluster.iter().any(|ray| ray.seen.iter().any(|seen| seen.shows));
-        let clusters: Vec<_> = look.clusters.iter().filter(live).collect();
-        let share = clusters.len() as f64 / look.clusters.len().max(1) as f64;
-        let pixels = look.pixels * if all_tiles { 1.0 } else { (OF_TILES * share).min(1.0) };
+        let in_tiles = look.leaves_out_tiles && tiles::are_left_out_by(method);
+        let pixels = if in_tiles { look.live_pixels() } else { look.pixels };
         let mut sum = Self { pixels, passes, ..Self::default() };
-        for cluster in clusters {
+        for cluster in look.clusters.iter().filter(|cluster| !in_tiles || anything_shows(cluster)) {
             let walks = cluster.iter().map(|ray| Walk { method, tuning, look, ray });
             sum.add(walks.map(|walk| walk.trace()).collect(), method.loops().then_some(m));
         }
@@ -128,9 +124,6 @@ impl Work {
         }
     }
 }
-
-/// Pixels of live tiles for one behind which something shows, about.
-const OF_TILES: f64 = 1.3;
 
 /// Rays that a device shades together.
 const LANES: f64 = 8.0;

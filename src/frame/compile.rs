@@ -57,6 +57,8 @@ pub struct CompiledDraw {
     pub corners: Range<u32>,
     /// Where the list of their numbers begins, bytes.
     pub numbers: Option<u64>,
+    /// Rectangles of the targets that alone are drawn; none where all is.
+    pub parts: Option<Vec<Region>>,
 }
 
 /// What a compute shader over the pixels binds.
@@ -235,6 +237,7 @@ impl Compiler<'_> {
             set,
             corners: (draw.geometry.range)(self.scene, &self.plan.view, step.pass),
             numbers: (draw.geometry.numbers)(self.scene, step.pass),
+            parts: (draw.geometry.parts)(&self.plan.view).map(<[Region]>::to_vec),
         })
     }
 

@@ -20,7 +20,7 @@ use crate::part::resource::Resource;
 use crate::part::{Draw, Group, TILE, Work};
 use crate::plan::Plan;
 use crate::resource;
-use crate::scene::Scene;
+use crate::scene::{Region, Scene};
 use crate::shared;
 use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope, Watch};
 
@@ -232,7 +232,6 @@ impl GpuFrame {
         commands.bind_graphics(&objects.pipeline, &objects.set);
         // One depth for the whole box, to the bit, or the matrix of a shell.
         commands.viewport(self.full_area(), draw.depths);
-        commands.scissor(area);
         if draw.test.bounds {
             commands.depth_bounds(draw.least, draw.bound);
         }
@@ -258,10 +257,13 @@ impl GpuFrame {
             commands.begin_conditional(buffer, 4 * u64::from(at));
         }
         let (first, count) = (objects.corners.start, objects.corners.len() as u32);
-        match objects.numbers {
-            _ if ended => {}
-            Some(_) => commands.draw_numbered(first, count),
-            None => commands.draw(first, count),
+        let whole = [self.whole()];
+        for part in objects.parts.as_deref().unwrap_or(&whole).iter().filter(|_| !ended) {
+            commands.scissor(rectangle(*part));
+            match objects.numbers {
+                Some(_) => commands.draw_numbered(first, count),
+                None => commands.draw(first, count),
+            }
         }
         if conditional.is_some() {
             commands.end_conditional();
@@ -324,8 +326,12 @@ impl GpuFrame {
     }
 
     fn area(&self) -> vk::Rect2D {
-        let [width, height] = self.compiled.region.size();
-        vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
+        rectangle(self.whole())
+    }
+
+    /// The targets, from their first pixel.
+    fn whole(&self) -> Region {
+        Region { x: 0, y: 0, ..self.compiled.region }
     }
 
     fn texels(&self) -> CopyRegion {
@@ -340,4 +346,9 @@ impl GpuFrame {
         let offset = vk::Offset2D { x: -(region.x as i32), y: -(region.y as i32) };
         vk::Rect2D { offset, extent: vk::Extent2D { width, height } }
     }
+}
+
+fn rectangle(Region { x, y, width, height }: Region) -> vk::Rect2D {
+    // Sides are checked against the device's limits, far below 2^31.
+    vk::Rect2D { offset: vk::Offset2D { x: x as i32, y: y as i32 }, extent: vk::Extent2D { width, height } }
 }

@@ -16,6 +16,7 @@ pub static BOUNDARY: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |scene, _, _| 0..scene.tetrahedra.as_ref().map_or(0, |mesh| 3 * mesh.boundary.len() as u32),
     numbers: |_, _| None,
+    parts: |_| None,
     hits,
 };
 

@@ -41,6 +41,7 @@ const POLYGONS: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
+    parts: |_| None,
     hits: |_, _, _| Hits { fragments: 0, undecided: false },
 };
 

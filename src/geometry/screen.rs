@@ -13,5 +13,6 @@ pub static SCREEN: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..3,
     numbers: |_, _| None,
+    parts: |_| None,
     hits: |_, view, sample| Hits { fragments: view.region.contains(sample.pixel).into(), undecided: false },
 };

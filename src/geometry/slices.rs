@@ -16,6 +16,7 @@ pub static SLICES_CUT: Geometry = Geometry {
     corner: vk::Format::R32G32_SFLOAT,
     range: |_, view, pass| view.slices.as_ref().map_or(0..0, |slices| slices.numbers_in(pass)),
     numbers: |_, _| None,
+    parts: |_| None,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };
 
@@ -31,5 +32,6 @@ pub static SLICES: Geometry = Geometry {
         view.slices.as_ref().map_or(0..0, in_pass)
     },
     numbers: |_, _| None,
+    parts: |_| None,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };

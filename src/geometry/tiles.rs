@@ -1,20 +1,19 @@
-//! Tiles of pixels behind which something may show.
+//! The volume's box in tiles of pixels behind which something may show.
 
-use ash::vk;
-
+use super::volume_box::BOX_FRONT;
 use crate::part::geometry::{Geometry, Hits};
-use crate::resource;
 
-/// Squares of 8 x 8 pixels, which end where the picture does: all rays are begun there.
+/// The front faces of the box, in no other tiles: what they cover there is decided as ever.
 pub static LIVE_TILES: Geometry = Geometry {
-    name: "live tiles",
-    vertex: "box.vert",
-    vertices: resource::LIVE_TILES,
-    corner: vk::Format::R32G32B32_SFLOAT,
-    range: |_, view, _| 0..view.tiles.as_ref().map_or(0, |tiles| tiles.corners.len() as u32),
-    numbers: |_, _| None,
-    hits: |_, view, sample| {
-        let live = view.tiles.as_ref().is_some_and(|tiles| tiles.contains(sample.pixel));
-        Hits { fragments: live.into(), undecided: false }
+    name: "front faces in live tiles",
+    vertex: BOX_FRONT.vertex,
+    vertices: BOX_FRONT.vertices,
+    corner: BOX_FRONT.corner,
+    range: BOX_FRONT.range,
+    numbers: BOX_FRONT.numbers,
+    parts: |view| view.tiles.as_ref().map(|tiles| tiles.live()),
+    hits: |scene, view, sample| match view.tiles.as_ref().is_some_and(|tiles| tiles.contains(sample.pixel)) {
+        true => (BOX_FRONT.hits)(scene, view, sample),
+        false => Hits { fragments: 0, undecided: false },
     },
 };

@@ -29,6 +29,7 @@ const BOX: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
+    parts: |_| None,
     hits,
 };
 

@@ -68,10 +68,12 @@ use super::fragment_kind::FragmentKind;
 use super::timing::{HostTimes, Timing, Timings};
 use crate::auto::AutoRecord;
 use crate::error::{Error, Result};
+use crate::feature::tiles;
 use crate::method;
 use crate::part::rows::Method;
 use crate::provenance::{self, DocumentFormat, Provenance};
 use crate::scene::Settings;
+use crate::scene::settings::Tiles;
 
 /// The version of the format written here.
 pub const FORMAT: u32 = 1;
@@ -148,6 +150,12 @@ impl Run {
     /// Whether its method looks up distances, of cells of one size or another.
     pub fn looks_up_distances(&self) -> bool {
         self.method.parse().ok().and_then(method::find).is_some_and(|method| method.distance().is_some())
+    }
+
+    /// Whether it draws only tiles of pixels behind which something may show.
+    pub fn draws_live_tiles(&self) -> bool {
+        let leaves_out = self.method.parse().ok().and_then(method::find).is_some_and(tiles::are_left_out_by);
+        leaves_out && self.settings.method.tiles == Tiles::Live
     }
 
     /// What its fragments stand for; none where it runs on no device.

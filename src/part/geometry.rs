@@ -7,6 +7,7 @@ use ash::vk;
 
 use super::resource::Resource;
 use crate::scene::Scene;
+use crate::scene::region::Region;
 use crate::scene::view::View;
 
 /// Triangles, and the fragments that a rasteriser makes of them.
@@ -23,6 +24,8 @@ pub struct Geometry {
     pub range: fn(&Scene, &View, u32) -> Range<u32>,
     /// Where in the buffer the list of the numbers of corners begins, bytes, in a main pass; none where triangles share no corners.
     pub numbers: fn(&Scene, u32) -> Option<u64>,
+    /// Rectangles of pixels that alone are drawn, without overlap, from the first pixel of the view's region; none where all are.
+    pub parts: fn(&View) -> Option<&[Region]>,
     /// The fragments of a pixel, in f64.
     pub hits: fn(&Scene, &View, Sample) -> Hits,
 }

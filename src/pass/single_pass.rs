@@ -12,21 +12,17 @@ use crate::part::rows::{Context, Hook};
 use crate::part::{Constant, Draw, Group, PixelDispatch, Step, Work};
 use crate::resource;
 use crate::scene::settings::Accumulate;
-use crate::twin::{self, TwinPass};
+use crate::twin;
 
-/// The loop as a fragment shader, for every pixel that the box's front faces cover, or of the tiles that are drawn.
+/// The loop as a fragment shader, for every pixel that the box's front faces cover, in the tiles that are drawn.
 pub fn single_pass(context: &Context) -> Step {
     let of_loop = RayLoop::of(context);
-    let (geometry, twin): (_, TwinPass) = match context.view.tiles {
-        // Tiles reach beyond the box.
-        Some(_) => (&LIVE_TILES, twin::single_pass::computed),
-        None => (&BOX_FRONT, twin::single_pass::single_pass),
-    };
+    let geometry = if context.view.tiles.is_some() { &LIVE_TILES } else { &BOX_FRONT };
     let mut accesses = vec![Usage::Vertices.of(geometry.vertices)];
     accesses.extend(of_loop.read(Usage::Sampled));
     let drawn = if of_loop.goes_on { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(resource::ACCUMULATED));
-    let mut draw = Draw::plain(geometry, "single_pass.frag", twin);
+    let mut draw = Draw::plain(geometry, "single_pass.frag", twin::single_pass::single_pass);
     draw.define(of_loop.defines);
     draw.insert(effect::insert(context));
     draw.specialize(of_loop.constants);

@@ -75,6 +75,9 @@ pub fn label(run: &Run) -> String {
     if run.marks_sections() && run.settings.method.lookups != 1 {
         let _ = write!(label, " ({} lookups)", run.settings.method.lookups);
     }
+    if run.draws_live_tiles() {
+        label.push_str(" (live tiles)");
+    }
     // Methods that cull nothing draw nothing apart.
     let apart = run.settings.layers.partial == PartialSegments::Apart && run.cull.is_some();
     if apart && !run.fragments.per_layer.is_empty() {

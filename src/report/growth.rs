@@ -85,8 +85,8 @@ impl Growth {
 
     fn of(mut groups: Vec<&RunGroup>) -> Option<Self> {
         groups.sort_by_key(|group| ideal(group));
-        groups.dedup_by_key(|group| ideal(group));
-        if groups.len() < LEAST_SCENES {
+        let alike = groups.first().map(|group| ideal(group)) == groups.last().map(|group| ideal(group));
+        if groups.len() < LEAST_SCENES || alike {
             return None;
         }
         let runs = || groups.iter().flat_map(|group| group.runs.iter().map(|(_, run)| *run));

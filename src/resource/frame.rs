@@ -9,7 +9,6 @@ use crate::part::resource::{Life, Origin, Resource, ResourceInfo, ResourceKind};
 use crate::scene::settings::{Accumulate, DepthFormat, Formats};
 use crate::scene::slice_polygons::CutPlanes;
 use crate::scene::slices::Slices;
-use crate::scene::view::View;
 use crate::shared;
 use crate::vulkan::texel_bytes;
 
@@ -27,20 +26,6 @@ static BOX_INFO: ResourceInfo = ResourceInfo {
         bytemuck::cast_slice(&corners).to_vec().into()
     }),
 };
-
-/// Tiles of pixels behind which something may show.
-pub const LIVE_TILES: Resource = Resource::new(&LIVE_TILES_INFO);
-static LIVE_TILES_INFO: ResourceInfo = ResourceInfo {
-    name: "live_tiles",
-    holds: "corners of triangles in clip space that cover the tiles behind which something may show",
-    kind: ResourceKind::Vertices(|facts, _| size_of_val(tile_corners(facts.view)) as u64),
-    life: Life::Frame,
-    origin: Origin::Host(|facts| bytemuck::cast_slice(tile_corners(facts.view)).into()),
-};
-
-fn tile_corners(view: &View) -> &[[f32; 3]] {
-    view.tiles.as_ref().map_or(&[], |tiles| &tiles.corners)
-}
 
 /// The view and the sampling.
 pub const FRAME: Resource = Resource::new(&FRAME_INFO);

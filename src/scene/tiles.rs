@@ -18,22 +18,20 @@ pub struct Tiles {
     /// Tiles in a row.
     columns: u32,
     /// A flag a tile, row after row.
-    live: Vec<bool>,
-    /// Clip coordinates x, y, w of the corners of triangles that cover live tiles, each pixel once.
-    pub corners: Vec<[f32; 3]>,
+    flags: Vec<bool>,
+    /// Rectangles that cover live tiles, each pixel once, from the first pixel of the region.
+    live: Vec<Region>,
 }
 
 impl Tiles {
-    /// The tiles that any of the boxes may be seen in, which are given by two corners in volume space; none where that is no tile at all.
-    pub fn around(
-        rays: &ViewRays,
-        size: [u32; 2],
-        region: Region,
-        boxes: impl Iterator<Item = [DVec3; 2]>,
-    ) -> Option<Self> {
+    /// The tiles of a region that any of the boxes may be seen in, which are given by two corners in volume space.
+    pub fn around(rays: &ViewRays, region: Region, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
         let [columns, rows] = region.size().map(|pixels| pixels.div_ceil(SIDE));
-        let live = vec![false; columns as usize * rows as usize];
-        let mut tiles = Self { region, columns, live, corners: Vec::new() };
+        let flags = vec![false; columns as usize * rows as usize];
+        let mut tiles = Self { region, columns, flags, live: Vec::new() };
+        if tiles.flags.is_empty() {
+            return tiles;
+        }
         let pixels = rays.to_picture();
         for [least, greatest] in boxes {
             let corner = |i: usize| {
@@ -43,22 +41,24 @@ impl Tiles {
             let placed: [DVec3; 8] = std::array::from_fn(corner);
             if !rays.parallel() && placed.iter().any(|place| place.z < rays.near) {
                 // Some of it is beside the eye or behind it, and may show anywhere.
-                tiles.live.fill(true);
+                tiles.flags.fill(true);
                 break;
             }
             let place = |of: DVec3| if rays.parallel() { [of.x, of.y] } else { [of.x / of.z, of.y / of.z] };
             tiles.add(placed.map(place));
         }
-        tiles.live.contains(&true).then(|| {
-            let corners = tiles.rectangles().into_iter().flat_map(|rectangle| corners(rectangle, size)).collect();
-            Self { corners, ..tiles }
-        })
+        Self { live: tiles.rectangles(), ..tiles }
+    }
+
+    /// Rectangles that cover live tiles, each pixel once, from the first pixel of the region.
+    pub fn live(&self) -> &[Region] {
+        &self.live
     }
 
     /// Tiles that the rectangle around places of the picture reaches are live.
     fn add(&mut self, places: [[f64; 2]; 8]) {
         let origin = [self.region.x, self.region.y];
-        let rows = self.live.len() as u32 / self.columns;
+        let rows = self.flags.len() as u32 / self.columns;
         let [across, down] = [(0, self.columns), (1, rows)].map(|(axis, tiles)| {
             let tile = |pixel: f64| (pixel - f64::from(origin[axis])) / f64::from(SIDE);
             let low = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
@@ -69,7 +69,7 @@ impl Tiles {
         for row in down {
             let first = (row * self.columns) as usize;
             let [begin, end] = [across.start, across.end].map(|column| first + column as usize);
-            self.live[begin.min(end)..end].fill(true);
+            self.flags[begin.min(end)..end].fill(true);
         }
     }
 
@@ -77,29 +77,28 @@ impl Tiles {
     pub fn contains(&self, [column, row]: [u32; 2]) -> bool {
         let tile = |pixel: u32, first: u32| (pixel - first) / SIDE;
         let at = || tile(row, self.region.y) * self.columns + tile(column, self.region.x);
-        self.region.contains([column, row]) && self.live[at() as usize]
+        self.region.contains([column, row]) && self.flags[at() as usize]
     }
 
-    /// Live tiles, those of a row that touch as one, up to the end of the region.
+    /// Live tiles, those of a row that touch as one, and with those below that have the same columns.
     fn rectangles(&self) -> Vec<Region> {
+        let [width, height] = self.region.size();
         let mut found: Vec<Region> = Vec::new();
-        for (i, _) in self.live.iter().enumerate().filter(|(_, live)| **live) {
-            let [column, row] = [i as u32 % self.columns, i as u32 / self.columns];
-            let (x, y) = (self.region.x + column * SIDE, self.region.y + row * SIDE);
-            let width = SIDE.min(self.region.columns().end - x);
-            match found.last_mut() {
-                Some(before) if before.y == y && before.columns().end == x => before.width += width,
-                _ => found.push(Region { x, y, width, height: SIDE.min(self.region.rows().end - y) }),
+        for (row, flags) in self.flags.chunks_exact(self.columns as usize).enumerate() {
+            let y = row as u32 * SIDE;
+            let height = SIDE.min(height - y);
+            let tile = |column: usize| column as u32 * SIDE;
+            for run in flags.iter().enumerate().collect::<Vec<_>>().chunk_by(|a, b| a.1 == b.1).filter(|run| *run[0].1)
+            {
+                let (x, end) = (tile(run[0].0), tile(run[0].0 + run.len()).min(width));
+                let above =
+                    found.iter_mut().find(|above| (above.x, above.columns().end, above.rows().end) == (x, end, y));
+                match above {
+                    Some(above) => above.height += height,
+                    None => found.push(Region { x, y, width: end - x, height }),
+                }
             }
         }
         found
     }
-}
-
-/// Two triangles that cover a rectangle of a picture of that size.
-fn corners(of: Region, size: [u32; 2]) -> [[f32; 3]; 6] {
-    let clip = |pixel: u32, axis: usize| (2.0 * f64::from(pixel) / f64::from(size[axis]) - 1.0) as f32;
-    let [left, right] = [of.columns().start, of.columns().end].map(|column| clip(column, 0));
-    let [top, bottom] = [of.rows().start, of.rows().end].map(|row| clip(row, 1));
-    [[left, top], [right, top], [left, bottom], [right, top], [right, bottom], [left, bottom]].map(|[x, y]| [x, y, 1.0])
 }

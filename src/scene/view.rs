@@ -91,10 +91,9 @@ impl View {
         Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
     }
 
-    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space; of all where
-    /// that is none.
+    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space.
     pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
-        Self { tiles: Tiles::around(&self.rays, self.size, self.region, boxes).map(Arc::new), ..self }
+        Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes))), ..self }
     }
 
     /// What shows of the slices of the scene that this is a view of; nothing where there are none.

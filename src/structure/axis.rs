@@ -3,7 +3,7 @@
 //!
 //! Going along a column, the nearest place never goes back: squares of ways are convex, so that of two places the further
 //! one, once it is the better, stays the better. What is nearest to both ends of a stretch therefore bounds what is
-//! nearest to all between. Every [`ANCHOR`]-th place is settled first, by halving stretches (divide and conquer as for
+//! nearest to all between. Every eighth place is settled first, by halving stretches (divide and conquer as for
 //! totally monotone matrices, Aggarwal et al., Geometric Applications of a Matrix-Searching Algorithm, 1987), within
 //! bounds that serve all lanes; then those between, which look at what is left. So everything is plain arithmetic on lanes.
 

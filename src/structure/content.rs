@@ -20,7 +20,9 @@ pub fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
     // What a texture unit makes of a value is no farther from it.
     let error = TextureChoice::of(scene).error as f32;
     let blocks = field.cells().map(|cells| cells.div_ceil(side));
-    let shows = |[low, high]: &[f32; 2]| {
+    let shows = |&[low, high]: &[f32; 2]| {
+        // A background of 0 is kept as it is.
+        let error = if low == 0.0 && high == 0.0 { 0.0 } else { error };
         let [low, high] = widened(low - error, high + error);
         support.meets(low, high)
     };

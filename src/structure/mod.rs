@@ -1,6 +1,6 @@
 //! Structures that are built of a volume: those that tell where it holds nothing to see, and gradients.
 
-mod axis;
+pub mod axis;
 pub mod blocks;
 pub mod bundle;
 pub mod cells;

@@ -6,7 +6,7 @@ use super::fragments::legend;
 use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, mark, svg};
 use crate::error::Result;
 use crate::measure::record::Clock;
-use crate::report::growth::Growth;
+use crate::report::growth::{Growth, Line};
 use crate::report::number::thousands;
 
 const HEIGHT: u32 = 480;
@@ -65,8 +65,13 @@ fn draw<'a>(area: &Area<'a>, growth: &Growth) -> Drawn<'a> {
     let pixels = area.strip_coord_spec();
     let (left, upper) = pixels.get_base_pixel();
     for (i, row) in growth.rows.iter().enumerate() {
-        let at = |segments: f64| (segments, row.line.base + row.line.each * segments);
-        chart.draw_series(LineSeries::new([at(0.0), at(last)], color(i).stroke_width(2)))?;
+        let Line { base, each, .. } = row.line;
+        // Only between scenes, and where it tells of a time.
+        let none = -base / each;
+        let first = if each > 0.0 { segments[0].max(none) } else { segments[0] };
+        let end = if each < 0.0 { last.min(none) } else { last };
+        let at = |segments: f64| (segments, base + each * segments);
+        chart.draw_series(LineSeries::new([at(first), at(end)], color(i).stroke_width(2)))?;
         for point in segments.iter().copied().zip(row.times.iter().copied()) {
             let (x, y) = chart.backend_coord(&point);
             mark(&pixels, (x - left, y - upper), i, 4)?;

@@ -93,7 +93,7 @@ section! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Tiles {
-    /// Those behind which something may show, where the method is chosen by auto and leaps over empty space, else all.
+    /// Those behind which something may show, where auto chooses a loop that leaps and finding them pays over the frames, else all.
     #[default]
     Auto,
     /// All that the volume's box covers.
