@@ -86,6 +86,11 @@ pub fn label(run: &Run) -> String {
     label
 }
 
+/// The same with cull and mark, where the method culls.
+pub fn label_with_form(run: &Run) -> String {
+    run.form().map_or_else(|| label(run), |form| format!("{}, {form}", label(run)))
+}
+
 impl<'a> RunGroup<'a> {
     /// A group has at least one run.
     pub fn first(&self) -> &'a Run {

@@ -1,6 +1,6 @@
 //! How what a method saves depends on the cost of a sample: the same scene with ever more extra fetches.
 
-use super::comparison::{RunGroup, comparable, label};
+use super::comparison::{RunGroup, comparable, label_with_form};
 use super::table::{Column, Table};
 use crate::measure::record::Run;
 use crate::measure::saving::AGAINST;
@@ -51,14 +51,13 @@ impl Sweep {
         if same.len() < 2 {
             return None;
         }
-        let name = |run: &Run| run.form().map_or_else(|| label(run), |form| format!("{}, {form}", label(run)));
         let time = |group: &&RunGroup, wanted: &str| {
-            let found = group.runs.iter().find(|(_, run)| name(run) == wanted)?;
+            let found = group.runs.iter().find(|(_, run)| label_with_form(run) == wanted)?;
             Some(1.0 - found.1.saved.as_ref()?.time?)
         };
         let runs = base.runs.iter().map(|(_, run)| *run).filter(|run| run.method != AGAINST && run.method != "cpu");
         let rows = runs.map(|run| {
-            let label = name(run);
+            let label = label_with_form(run);
             CostRow { times: same.iter().map(|group| time(group, &label)).collect(), label }
         });
         Some(Self { costs: same.iter().map(|group| extra_fetches(group)).collect(), rows: rows.collect() })

@@ -1,7 +1,7 @@
 //! How the time of a frame grows with what it has to draw: the same methods, settings and view on several volumes, against the segments
 //! that show something.
 
-use super::comparison::{RunGroup, comparable, label};
+use super::comparison::{RunGroup, comparable, label_with_form};
 use super::number::thousands;
 use super::table::{Column, Table};
 use crate::measure::record::{Clock, Run};
@@ -66,10 +66,6 @@ fn ideal(group: &RunGroup) -> Option<u64> {
     group.runs.iter().find_map(|(_, run)| run.ideal).map(|ideal| ideal.main)
 }
 
-fn name(run: &Run) -> String {
-    run.form().map_or_else(|| label(run), |form| format!("{}, {form}", label(run)))
-}
-
 impl Growth {
     /// Of all scenes of the groups that differ in their volumes only; none of fewer than three.
     pub fn all(groups: &[RunGroup]) -> Vec<Self> {
@@ -94,11 +90,11 @@ impl Growth {
         let scenes: Vec<(String, u64)> =
             groups.iter().filter_map(|group| Some((group.first().scene.clone(), ideal(group)?))).collect();
         let time = |group: &&RunGroup, wanted: &str| {
-            let found = group.runs.iter().map(|(_, run)| *run).find(|run| name(run) == wanted)?;
+            let found = group.runs.iter().map(|(_, run)| *run).find(|run| label_with_form(run) == wanted)?;
             found.milliseconds(clock)
         };
         let row = |(_, run): &(usize, &Run)| {
-            let label = name(run);
+            let label = label_with_form(run);
             let times: Option<Vec<f64>> = groups.iter().map(|group| time(group, &label)).collect();
             let times = times?;
             let points: Vec<[f64; 2]> =

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::experiment::orbit::Summary;
 use crate::measure::record::{OrbitFrame, PictureRecord, Run};
 use crate::report::choice::weighed;
-use crate::report::comparison::{self, RunGroup, label};
+use crate::report::comparison::{self, RunGroup, label_with_form};
 use crate::report::cost::Sweep;
 use crate::report::growth::Growth;
 use crate::report::html::{Html, Pictures, escape};
@@ -75,7 +75,7 @@ pub fn section(
         );
     }
     for (_, run) in &group.runs {
-        page.folded(&format!("{}: plan, memory and settings", name(run)), |page| detail(page, run));
+        page.folded(&format!("{}: plan, memory and settings", label_with_form(run)), |page| detail(page, run));
     }
     page.raw("</section>\n");
     Ok(())
@@ -124,8 +124,8 @@ fn orbits(page: &mut Html, group: &RunGroup) {
     for (_, run) in &group.runs {
         let Some(frames) = run.orbit.as_deref() else { continue };
         let Some(summary) = Summary::of(frames) else { continue };
-        page.tag("p", &format!("{}: {}.", name(run), summary.words()));
-        page.folded(&format!("{}: frames of the orbit", name(run)), |page| page.table(&frame_table(frames)));
+        page.tag("p", &format!("{}: {}.", label_with_form(run), summary.words()));
+        page.folded(&format!("{}: frames of the orbit", label_with_form(run)), |page| page.table(&frame_table(frames)));
     }
 }
 
@@ -150,17 +150,13 @@ fn frame_table(frames: &[OrbitFrame]) -> Table {
     table
 }
 
-fn name(run: &Run) -> String {
-    run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
-}
-
 fn pictures(page: &mut Html, group: &RunGroup, records: &[PictureRecord], kept: Pictures) {
     page.raw("<div class=\"pictures\">\n");
     for (i, run) in &group.runs {
         let Some(record) = records.iter().find(|record| record.run == *i) else { continue };
         page.raw("<figure>");
-        page.picture(kept, &record.file, &format!("{} by {}", run.scene, name(run)));
-        page.raw(&format!("<figcaption>{}", escape(&name(run))));
+        page.picture(kept, &record.file, &format!("{} by {}", run.scene, label_with_form(run)));
+        page.raw(&format!("<figcaption>{}", escape(&label_with_form(run))));
         if let Some(difference) = &record.difference {
             page.raw("<br>");
             page.picture(kept, &difference.file, "difference to the reference");

@@ -7,7 +7,7 @@ use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color
 use crate::error::Result;
 use crate::measure::record::Run;
 use crate::measure::timing::Timing;
-use crate::report::comparison::{RunGroup, label};
+use crate::report::comparison::{RunGroup, label_with_form};
 use crate::report::number::milliseconds;
 
 const BAR: u32 = 30;
@@ -55,7 +55,7 @@ fn device_bars(group: &RunGroup) -> Option<Bars> {
             });
             parts.push((place, timing.value));
         }
-        bars.push(Bar { label: bar_label(run), parts, total });
+        bars.push(Bar { label: label_with_form(run), parts, total });
     }
     (!bars.is_empty()).then_some((groups, bars, "device time of a frame / ms"))
 }
@@ -63,14 +63,10 @@ fn device_bars(group: &RunGroup) -> Option<Bars> {
 fn host_bars(group: &RunGroup) -> Bars {
     let bar = |run: &Run| {
         let total = run.host.cpu?;
-        Some(Bar { label: bar_label(run), parts: vec![(0, total.value)], total })
+        Some(Bar { label: label_with_form(run), parts: vec![(0, total.value)], total })
     };
     let bars = group.runs.iter().filter_map(|(_, run)| bar(run)).collect();
     (vec!["CPU time".to_string()], bars, "CPU time of a frame, all threads / ms")
-}
-
-fn bar_label(run: &Run) -> String {
-    run.form().map_or_else(|| label(run), |forms| format!("{}, {forms}", label(run)))
 }
 
 fn draw<'a>(area: &Area<'a>, bars: &[Bar], axis: &str) -> Drawn<'a> {
