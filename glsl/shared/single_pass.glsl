@@ -4,7 +4,8 @@
 // ADAPTIVE: steps have lengths of their own (Weiler03 "Adaptive Sampling").
 //
 // TRANSPARENT (with SURFACE; crossings.glsl): surfaces let something through, and the ray goes on behind them.
-// LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing.
+// LEAP_BLOCKS, LEAP_DISTANCES: every M samples the loop looks at blocks or distances, and leaps over samples that show nothing until it
+// comes to some that may.
 //
 // Departures: 1. positions come from the index, where the paper adds steps up. 2. The end of the ray is drawn, unless `last = "none"`
 // asks for the paper's way, which stops before the volume is left. 3. T is tested after every sample; multi-pass ray casters test it
@@ -172,10 +173,9 @@ vec4 gather(inout Ray ray, vec4 held) {
 #endif
     while (!done && i < ray.samples) {
 #if defined(LEAP_BLOCKS) || defined(LEAP_DISTANCES)
-        uint free = free_from(ray, i);
-        if (free > 0u) {
-            i += free;
-            continue;
+        // Rays that a device shades together leap together, and then sample together.
+        for (uint free = 1u; free > 0u && i < ray.samples; i += free) {
+            free = free_from(ray, i);
         }
         uint end = min(i + SAMPLES_PER_PASS, ray.samples);
 #else
