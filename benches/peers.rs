@@ -2,18 +2,21 @@
 //! view, transfer function and step, all in the same minutes. Structures are built before. Every method of ours has the settings that `auto`
 //! weighs it with; methods and peers are timed one after the other. Peers run where Python has their packages (`pip install vtk vispy PyOpenGL`).
 //!
-//! `cargo bench --bench peers [-- PART-OF-NAME]`, the name being `aneurism, ramp`. Needs a device and `../shared/data`. With PICTURES=FOLDER
-//! the pictures of peers are kept there.
+//! With `--equal-error` steps and T are those that `--error` chooses for the rmse that the peer's picture has at a step of 1, of red, green and
+//! blue against the exact integral; where ours has a larger one all the same, a smaller one is asked for.
+//!
+//! `cargo bench --bench peers [-- [--equal-error] PART-OF-NAME]`, the name being `aneurism, ramp`. Needs a device and `../shared/data`. With
+//! PICTURES=FOLDER the pictures of peers are kept there.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use depthleap::auto::{DeviceFacts, Estimate, choose};
+use depthleap::auto::{AutoRecord, DeviceFacts, ErrorChoice, Estimate, choose, settle};
 use depthleap::frame::self_check;
 use depthleap::measure::runner::{Checked, Effort, Runner};
 use depthleap::measure::{Picture, Statistics};
 use depthleap::part::rows::{Ahead, Method};
-use depthleap::scene::settings::{Distance, MethodSettings, Settings, Tiles};
+use depthleap::scene::settings::{Distance, ErrorNorm, MethodSettings, Settings, Tiles};
 use depthleap::scene::transfer::Knot;
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Camera, Scene};
@@ -43,6 +46,7 @@ const CODES: f64 = 255.0;
 fn main() -> Result<()> {
     // Cargo adds options of its own.
     let asked = std::env::args().skip(1).find(|argument| !argument.starts_with("--")).unwrap_or_default();
+    let equal_error = std::env::args().any(|argument| argument == "--equal-error");
     let instance = Instance::new(false)?;
     let (info, _) = pick(&instance.devices()?, None)?;
     println!("{}, {} {}", info.name, info.driver_name, info.driver_info);
@@ -59,6 +63,7 @@ fn main() -> Result<()> {
                 continue;
             }
             match file.exists() {
+                true if equal_error => compare_at_equal_error(&checked, &name, &scene(file.clone(), transfer)?)?,
                 true => compare(&checked, &name, &scene(file.clone(), transfer)?)?,
                 false => println!("{name}: left out, {} is not there", file.display()),
             }
@@ -98,52 +103,117 @@ struct Ours {
     picture: Picture,
 }
 
+impl Ours {
+    /// Against the exact integral.
+    fn rmse(&self, exact: &[[f64; 4]]) -> f64 {
+        rmse(self.picture.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(f64::from)), exact)
+    }
+}
+
+/// A peer, measured.
+struct Theirs {
+    times: Times,
+    picture: Vec<[u8; 3]>,
+}
+
+impl Theirs {
+    /// Against the exact integral.
+    fn rmse(&self, exact: &[[f64; 4]]) -> f64 {
+        rmse(self.picture.iter().map(|rgb| rgb.map(|c| f64::from(c) / CODES)), exact)
+    }
+
+    fn line(&self, peer: &str, exact: &[[f64; 4]]) -> String {
+        format!("  {peer:<48} {:<24} rmse {:.1e}", self.times.words(), self.rmse(exact))
+    }
+}
+
 fn compare(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
     println!("\n{name}");
-    let rays = scene.camera.rays(scene.settings.image.size)?;
-    let exact = ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size);
-    let mut ours = ours(checked, scene, name)?;
-    ours.sort_by(|a, b| a.times.median().total_cmp(&b.times.median()));
+    let exact = exact(scene)?;
+    let mut asked = scene.clone();
+    // What is built is not counted.
+    asked.settings.method.frames = u32::MAX;
+    let record = choose(&asked, &DeviceFacts::default())?;
+    let ours = ours(checked, scene, name, &record, record.weighed.len())?;
     for one in &ours {
-        let rmse = rmse(one.picture.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(f64::from)), &exact);
-        println!("  {:<48} {:<24} rmse {rmse:.1e}", one.words, one.times.words());
+        println!("  {:<48} {:<24} rmse {:.1e}", one.words, one.times.words(), one.rmse(&exact));
     }
-    let for_a_view = |one: &&Ours| matches!(one.method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone));
-    let best = ours.first().map(|one| one.times.median());
-    let of_any_view = ours.iter().find(|one| !for_a_view(one)).map(|one| one.times.median());
     for peer in PEERS {
         match run_peer(scene, peer, name) {
-            Ok((times, picture)) => {
-                let rmse = rmse(picture.iter().map(|rgb| rgb.map(|c| f64::from(c) / CODES)), &exact);
-                let ratio = |ours: Option<f64>| ours.map_or("-".to_owned(), |ms| format!("{:.2}", ms / times.median()));
-                println!(
-                    "  {peer:<48} {:<24} rmse {rmse:.1e}; the best of ours takes {} of it, without a structure for each view {}",
-                    times.words(),
-                    ratio(best),
-                    ratio(of_any_view)
-                );
-            }
+            Ok(theirs) => println!("{}; {}", theirs.line(peer, &exact), ratios(&ours, &theirs)),
             Err(why) => println!("  {peer}: {why}"),
         }
     }
     Ok(())
 }
 
-/// Every method that draws the scene, with the settings that it is weighed with.
-fn ours(checked: &Checked, scene: &Scene, name: &str) -> Result<Vec<Ours>> {
-    let mut asked = scene.clone();
-    // What is built is not counted.
-    asked.settings.method.frames = u32::MAX;
-    let record = choose(&asked, &DeviceFacts::default())?;
+/// How often a smaller error is asked for, and by how much, where the look has promised too much.
+const TRIES: usize = 5;
+const SMALLER: f64 = 0.93;
+
+/// Methods that are measured, the best by their estimates.
+const MEASURED: usize = 3;
+
+fn compare_at_equal_error(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
+    println!("\n{name}");
+    let exact = exact(scene)?;
+    for peer in PEERS {
+        let theirs = match run_peer(scene, peer, name) {
+            Ok(theirs) => theirs,
+            Err(why) => {
+                println!("  {peer}: {why}");
+                continue;
+            }
+        };
+        println!("{}", theirs.line(peer, &exact));
+        let mut bound = theirs.rmse(&exact);
+        for _ in 0..TRIES {
+            let mut chosen = scene.clone();
+            chosen.settings.method.frames = u32::MAX;
+            (chosen.settings.sampling.error, chosen.settings.sampling.error_norm) = (Some(bound), ErrorNorm::Rmse);
+            let Some(record) = settle(&mut chosen, &DeviceFacts::default())? else { break };
+            let ours = ours(checked, &chosen, name, &record, MEASURED)?;
+            let met = ours.iter().all(|one| one.rmse(&exact) <= theirs.rmse(&exact));
+            for one in ours.iter().filter(|_| met) {
+                println!("    {:<46} {:<24} rmse {:.1e}", one.words, one.times.words(), one.rmse(&exact));
+            }
+            if met {
+                println!("    {}", record.error.iter().map(ErrorChoice::words).collect::<String>());
+                println!("    {}", ratios(&ours, &theirs));
+                break;
+            }
+            bound *= SMALLER;
+        }
+    }
+    Ok(())
+}
+
+fn exact(scene: &Scene) -> Result<Vec<[f64; 4]>> {
+    let rays = scene.camera.rays(scene.settings.image.size)?;
+    Ok(ExactIntegrator::of(scene).picture(&rays, scene.settings.image.size))
+}
+
+/// How much of a peer's time the best of ours takes, and the best that is not made for one view.
+fn ratios(ours: &[Ours], theirs: &Theirs) -> String {
+    let for_a_view = |one: &&Ours| matches!(one.method.ahead, Ahead::Distances(Distance::Optimal | Distance::Cone));
+    let best = ours.first().map(|one| one.times.median());
+    let of_any_view = ours.iter().find(|one| !for_a_view(one)).map(|one| one.times.median());
+    let ratio = |ours: Option<f64>| ours.map_or("-".to_owned(), |ms| format!("{:.2}", ms / theirs.times.median()));
+    format!("the best of ours takes {} of it, without a structure for each view {}", ratio(best), ratio(of_any_view))
+}
+
+/// The best methods by their estimates, so many, with the settings that they were weighed with, by rising time. Those are left out that this
+/// device lacks a form of.
+fn ours(checked: &Checked, scene: &Scene, name: &str, record: &AutoRecord, count: usize) -> Result<Vec<Ours>> {
     let mut runner = Runner::new(Some(checked), scene.clone(), name.to_owned());
     let mut ours = Vec::new();
-    for estimate in &record.weighed {
+    for estimate in record.weighed.iter().take(count) {
         let Ok(method) = estimate.method.parse() else { continue };
         let method = MethodSettings {
             name: method,
             lookups: estimate.lookups,
             cell: estimate.cell,
-            tiles: Tiles::Live,
+            tiles: if record.tiles { Tiles::Live } else { Tiles::All },
             ..scene.settings.method.clone()
         };
         runner.vary(|settings| settings.sampling.samples_per_pass = estimate.samples_per_pass);
@@ -162,6 +232,7 @@ fn ours(checked: &Checked, scene: &Scene, name: &str) -> Result<Vec<Ours>> {
             });
         }
     }
+    ours.sort_by(|a, b| a.times.median().total_cmp(&b.times.median()));
     Ok(ours)
 }
 
@@ -176,7 +247,7 @@ fn rmse(picture: impl Iterator<Item = [f64; 3]>, exact: &[[f64; 4]]) -> f64 {
 }
 
 /// Draws with a peer.
-fn run_peer(scene: &Scene, peer: &str, name: &str) -> std::result::Result<(Times, Vec<[u8; 3]>), String> {
+fn run_peer(scene: &Scene, peer: &str, name: &str) -> std::result::Result<Theirs, String> {
     let Voxels::U8(voxels) = &scene.field.volume.voxels else { return Err("takes bytes alone".to_owned()) };
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let kept = std::env::var_os("PICTURES").map_or_else(|| folder.path().to_owned(), PathBuf::from);
@@ -207,5 +278,6 @@ fn run_peer(scene: &Scene, peer: &str, name: &str) -> std::result::Result<(Times
     let [median, least, greatest] = times[..] else { return Err("says no times".to_owned()) };
     let bytes = std::fs::read(picture).map_err(|e| e.to_string())?;
     let pixels = &bytes[bytes.len().saturating_sub(3 * (SIZE * SIZE) as usize)..];
-    Ok((Times([median, least, greatest]), pixels.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()))
+    let picture = pixels.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect();
+    Ok(Theirs { times: Times([median, least, greatest]), picture })
 }

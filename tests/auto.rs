@@ -8,7 +8,7 @@ use depthleap::method::{self, METHODS};
 use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
-use depthleap::scene::settings::{Cull, Last, MethodName};
+use depthleap::scene::settings::{Cull, ErrorNorm, Last, MethodName};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Settings, Volume};
 use depthleap::truth::exact::ExactIntegrator;
@@ -319,16 +319,15 @@ fn methods_cull_as_they_are_asked_to() {
     assert!(!weighed.is_empty() && weighed.iter().all(|e| forms(e).iter().any(|form| form.cull == Cull::Ztest)));
 }
 
-/// The whole picture of what an error has chosen, in f64, and how far it is from the exact integral.
-fn error_of(scene: &Scene) -> f64 {
+/// The whole picture of what an error has chosen, in f64, and how far it is from the exact integral by a norm.
+fn error_of(scene: &Scene, norm: ErrorNorm) -> f64 {
     let mut scene = scene.clone();
     scene.settings.method.name = method::CPU.name();
     let plan = plan(&scene, None).expect("a plan");
     let drawn = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
     let rays = scene.camera.rays(scene.settings.image.size).unwrap();
     let exact = ExactIntegrator::of(&scene).picture(&rays, scene.settings.image.size);
-    let off = |(a, b): (&[f64; 4], &[f64; 4])| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
-    drawn.pixels.iter().zip(&exact).map(off).fold(0.0, f64::max)
+    norm.of(drawn.pixels.iter().zip(&exact).map(|(a, b)| std::array::from_fn(|c| a[c] - b[c])))
 }
 
 #[test]
@@ -341,12 +340,37 @@ fn an_error_that_is_asked_for_is_met_by_longer_steps_the_larger_it_is() {
             let error = record.error.expect("how it was chosen");
             assert_eq!(error.step, scene.settings.sampling.step);
             assert!(!scene.settings.method.name.is_auto());
-            let found = error_of(&scene);
+            let found = error_of(&scene, ErrorNorm::Largest);
             assert!(found <= bound, "{volume}, {tf}: {found:e} where {bound} was asked for, {error:?}");
             steps.push(error.step);
         }
         assert!(steps[0] > steps[2] && steps[0] >= steps[1] && steps[1] >= steps[2], "{volume}, {tf}: {steps:?}");
     }
+}
+
+#[test]
+fn a_mean_error_is_met_by_longer_steps_and_rays_that_end_sooner_than_a_largest_one() {
+    for (volume, tf) in [("jets:24", "ramp"), ("shells:24", "haze")] {
+        let chosen = |norm: ErrorNorm| {
+            let mut scene = scene(volume, tf, |s| (s.sampling.error, s.sampling.error_norm) = (Some(0.004), norm));
+            let record = settle(&mut scene, &DeviceFacts::default()).unwrap().expect("a record");
+            (record.error.expect("how it was chosen"), error_of(&scene, norm))
+        };
+        let ((largest, _), (mean, found)) = (chosen(ErrorNorm::Largest), chosen(ErrorNorm::Rmse));
+        // A small picture's mean is that of the whole one but for chance.
+        assert!(found <= 1.1 * 0.004, "{volume}, {tf}: {found:e}, {mean:?}");
+        assert!(mean.step >= largest.step && mean.termination <= largest.termination, "{mean:?} {largest:?}");
+        assert!((mean.step, mean.termination) != (largest.step, largest.termination), "{mean:?}");
+        assert!(mean.words().contains("the rmse of"), "{}", mean.words());
+    }
+}
+
+#[test]
+fn norms_of_differences_are_the_largest_and_the_root_of_the_mean_square() {
+    let differences = || [[0.0, -3.0, 1.0, 0.0], [1.0, 1.0, 2.0, 0.0]].into_iter();
+    assert_eq!(ErrorNorm::Largest.of(differences()), 3.0);
+    assert_eq!(ErrorNorm::Rmse.of(differences()), (16.0f64 / 8.0).sqrt());
+    assert_eq!([ErrorNorm::Largest, ErrorNorm::Rmse].map(|norm| norm.of(std::iter::empty())), [0.0; 2]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use cpu_time::ThreadTime;
 
-use super::cost::{build_ms, frame_ms, served, tiles_pay};
+use super::cost::{build_ms, frame_ms, ranges_pay, served};
 use super::error::meeting;
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
@@ -213,8 +213,12 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
 /// Whether methods that leave out tiles of pixels behind which nothing shows do so: where that is asked for, or left open and pays.
 fn leaves_out_tiles(scene: &Scene, look: &Look) -> bool {
     let method = &scene.settings.method;
-    let dead = look.pixels - look.live_pixels();
-    let pays = || tiles_pay(dead, scene.field.values.len() as f64, method.frames);
+    let leaping = &method::SINGLE_PASS_OMNI;
+    let ms = |leaves_out_tiles: bool| {
+        let (look, tuning) = (Look { leaves_out_tiles, ..look.clone() }, first(leaping, &scene.settings));
+        frame_ms(leaping, tuning, &Work::of(leaping, tuning, &look), scene)
+    };
+    let pays = || ranges_pay(ms(false) - ms(true), scene.field.values.len() as f64, method.frames);
     let asked = match method.tiles {
         Tiles::Auto => method.name.is_auto() && pays(),
         tiles => tiles == Tiles::Live,

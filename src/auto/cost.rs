@@ -22,6 +22,9 @@ struct Costs {
     /// Looking up a block, or a distance.
     block: f64,
     distance: f64,
+    /// What a look-up takes more for each doubling of the bytes of a structure beyond [`OF_CACHES`]: rays beside each other look at places
+    /// that are farther apart than their samples.
+    distance_of_twice: f64,
     /// What rays that look for surfaces take more: a pixel, and a main fragment.
     surface: [f64; 2],
 }
@@ -39,16 +42,17 @@ struct SampleCosts {
 
 /// A loop that holds a ray. As compute shaders they take as long, give or take what scenes do not explain.
 const LOOP: Costs = Costs {
-    frame: 2.4e6,
+    frame: 4.5e6,
     pass: 0.0,
-    pixel: 360.0,
+    pixel: 45.0,
     covered: 0.0,
     main: 0.0,
-    sample: SampleCosts { color: 5.0, preintegrated: 84.0, value: 4.0, surface: 134.0 },
+    sample: SampleCosts { color: 7.5, preintegrated: 45.0, value: 5.0, surface: 100.0 },
     intermediate: 0.0,
-    block: 50.0,
-    distance: 25.0,
-    surface: [1500.0, 0.0],
+    block: 15.0,
+    distance: 7.5,
+    distance_of_twice: 1.8,
+    surface: [330.0, 0.0],
 };
 
 /// Main passes with intermediate ones between them.
@@ -62,6 +66,7 @@ const PASSES: Costs = Costs {
     intermediate: 125.0,
     block: 69.0,
     distance: 0.0,
+    distance_of_twice: 8.0,
     surface: [240.0, 180.0],
 };
 
@@ -97,9 +102,6 @@ const FETCH_OF_TWICE: f64 = 0.6;
 /// Texels of a texture that stays in the caches.
 const CACHED: f64 = (1 << 15) as f64;
 
-/// Nanoseconds that a look-up takes more for each doubling of the bytes of a structure beyond [`OF_CACHES`]: rays beside each other look
-/// at places that are farther apart than their samples.
-const LOOKUP_OF_TWICE: f64 = 8.0;
 /// Bytes of a structure that stays in the caches.
 const OF_CACHES: f64 = (1 << 20) as f64;
 /// Bytes of a cell that tells octants apart.
@@ -131,7 +133,7 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
             let cells = voxels / f64::from(tuning.cell).powi(3);
             let octants = method.ahead == Ahead::Distances(Distance::Directional);
             let bytes = if octants { OCTANT_BYTES * cells } else { cells };
-            costs.distance + LOOKUP_OF_TWICE * (bytes / OF_CACHES).log2().max(0.0)
+            costs.distance + costs.distance_of_twice * (bytes / OF_CACHES).log2().max(0.0)
         }
     };
     let parts = [
@@ -194,9 +196,9 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
         }
 }
 
-/// Whether so many frames take longer to begin the rays of so many pixels than ranges of all voxels take to be found.
-pub fn tiles_pay(pixels: f64, voxels: f64, frames: u32) -> bool {
-    LOOP.pixel * pixels * f64::from(frames) > RANGE * voxels
+/// Whether so many frames that each take so many milliseconds less save more than ranges of all voxels take to be found.
+pub fn ranges_pay(saved_ms: f64, voxels: f64, frames: u32) -> bool {
+    saved_ms * f64::from(frames) > NANOSECONDS * RANGE * voxels
 }
 
 /// How many of so many frames are served by what a method builds: all of them, or one, where it is made for a view that changes.

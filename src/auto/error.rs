@@ -1,46 +1,44 @@
 //! `sampling.error`: the longest steps with which the picture of a scene is as near to the exact integral as it is asked to be, found by a
 //! quick look: a small picture of the same view, drawn in f64 with one way of sampling after the other and held against the integral.
+//! Where the norm is a mean, rays may end the sooner the shorter steps are, and which of both is the cheaper is weighed later.
 
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::small::{CONFIRMED, SEARCHED, SmallLook};
 use crate::error::{Error, Result};
-use crate::frame::{Structures, cpu};
-use crate::method::{self, CPU};
-use crate::plan;
+use crate::method;
 use crate::projection;
 use crate::scene::Scene;
-use crate::scene::settings::{Classification, Last, Offset, SamplingSettings};
-use crate::truth::exact::ExactIntegrator;
+use crate::scene::settings::{Classification, ErrorNorm, Last, Offset, SamplingSettings};
 use crate::truth::known;
 
-/// A small picture: its pixels along the longer side, at the most, and how many times its largest error that of the picture is taken to be,
-/// at the most. Large errors are rare, and where a few pixels have one a small picture may have none.
-#[derive(Clone, Copy)]
-struct Small {
-    side: f64,
-    safety: f64,
-}
-
-/// What steps are sought with, and what they are held against then.
-const SEARCHED: Small = Small { side: 48.0, safety: 1.5 };
-const CONFIRMED: Small = Small { side: 128.0, safety: 2.0 };
-
 /// Steps that are tried, in voxels, the longest first.
-const STEPS: [f64; 12] = [4.0, 3.0, 2.0, 1.5, 1.0, 0.75, 0.5, 0.35, 0.25, 0.18, 0.125, 0.0625];
+const STEPS: [f64; 22] = [
+    4.0, 3.5, 3.0, 2.5, 2.0, 1.75, 1.5, 1.25, 1.0, 0.85, 0.75, 0.6, 0.5, 0.42, 0.35, 0.3, 0.25, 0.21, 0.18, 0.15,
+    0.125, 0.0625,
+];
 
 /// No error falls faster than with the square of the step; by so much more it may.
 const FASTER: f64 = 1.5;
 
-/// The part of the error that rays may bring which end early.
+/// The part of the largest error that rays may bring which end early.
 const OF_ENDS: f64 = 0.25;
+
+/// Of a mean error, how many times of it the rays may miss which end early, the fewest first: most pixels have none such.
+const OF_ENDS_IN_THE_MEAN: [f64; 4] = [0.25, 1.0, 2.0, 4.0];
+
+/// Rays end no earlier than by default, whatever error is allowed.
+const EARLIEST: f64 = 0.95;
 
 /// What meets an error.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ErrorChoice {
-    /// The largest error that is asked for, of any channel.
+    /// The error that is asked for, and what it is.
     pub bound: f64,
+    #[serde(default)]
+    pub norm: ErrorNorm,
     /// That of a small picture with what was chosen.
     pub found: f64,
     /// Its pixels.
@@ -62,44 +60,65 @@ pub struct ErrorChoice {
 pub struct Tried {
     pub classification: Classification,
     pub step: f64,
-    pub largest: f64,
+    pub termination: f64,
+    /// By the norm that was asked for.
+    pub error: f64,
 }
 
 impl ErrorChoice {
     /// What was found, in words.
     pub fn words(&self) -> String {
-        let Self { bound, found, pixels, step, classification, termination, .. } = self;
+        let Self { bound, norm, found, pixels, step, classification, termination, .. } = self;
         let by = if *classification == Classification::Post { "post-classified" } else { "pre-integrated" };
+        let looked = match norm {
+            ErrorNorm::Largest => {
+                format!("of {pixels} pixels that were looked at none is off by more than {found:.3e}")
+            }
+            ErrorNorm::Rmse => format!("the rmse of {pixels} pixels that were looked at is {found:.3e}"),
+        };
         format!(
-            "an error of at most {bound:.3e} is met by {by} samples {step} voxels apart with T = {termination}: of {pixels} pixels that \
-             were looked at none is off by more than {found:.3e}"
+            "an error of at most {bound:.3e} is met by {by} samples {step} voxels apart with T = {termination}: {looked}"
         )
     }
 }
 
-/// The ways of sampling that meet the error of a scene, each with the record of how it was found: of each classification the longest steps.
-/// What the scene has otherwise than by default stays as it is.
+/// The ways of sampling that meet the error of a scene, each with the record of how it was found: the longest steps of each classification
+/// and each T, but for those of which another has steps as long and ends rays as early. What the scene has otherwise than by default stays
+/// as it is.
 ///
 /// # Errors
 /// When no exact integral of the scene is known, or no step that is tried meets the error.
 pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, ErrorChoice)>> {
     let begin = Instant::now();
     known::check(scene)?;
-    let looks = Looks { search: SmallLook::of(scene, SEARCHED)?, confirm: SmallLook::of(scene, CONFIRMED)?, bound };
-    let (mut found, mut tried, mut refused) = (Vec::new(), Vec::new(), None);
+    let norm = scene.settings.sampling.error_norm;
+    let [search, confirm] = SmallLook::both(scene)?;
+    let mut looks = Looks { search, confirm, bound, norm, tried: Vec::new(), refused: None };
+    let mut found: Vec<(SamplingSettings, f64)> = Vec::new();
     for classification in classifications(scene) {
         // A sample that is pre-integrated takes no less time than another.
-        let no_shorter = found.iter().map(|(sampling, _): &(SamplingSettings, f64)| sampling.step).fold(0.0, f64::max);
-        let mut ways = steps(scene, classification, bound);
-        ways.retain(|sampling| sampling.step >= no_shorter);
-        found.extend(looks.longest(ways, &mut tried, &mut refused));
+        let no_shorter = found.iter().map(|(sampling, _)| sampling.step).fold(0.0, f64::max);
+        let mut longest = f64::INFINITY;
+        for termination in terminations(scene, bound) {
+            let mut ways = steps(scene, classification, termination);
+            ways.retain(|sampling| sampling.step >= no_shorter && sampling.step <= longest);
+            let Some(way) = looks.longest(ways) else { break };
+            longest = way.0.step;
+            // Rays that end earlier take no more samples of the same step.
+            found.retain(|(before, _)| before.classification != classification || before.step > longest);
+            found.push(way);
+        }
     }
-    let least = tried.iter().map(|tried| tried.largest).fold(f64::INFINITY, f64::min);
-    let record = |(sampling, largest): (SamplingSettings, f64)| {
+    if found.is_empty() {
+        return Err(looks.unmet());
+    }
+    let Looks { confirm, tried, .. } = looks;
+    let record = |(sampling, found): (SamplingSettings, f64)| {
         let record = ErrorChoice {
             bound,
-            found: largest,
-            pixels: looks.confirm.exact.len() as u32,
+            norm,
+            found,
+            pixels: confirm.exact.len() as u32,
             step: sampling.step,
             classification: sampling.classification,
             offset: sampling.offset,
@@ -110,21 +129,7 @@ pub fn meeting(scene: &Scene, bound: f64) -> Result<Vec<(SamplingSettings, Error
         };
         (sampling, record)
     };
-    let all: Vec<_> = found.into_iter().map(record).collect();
-    if let Some(refused) = refused.filter(|_| tried.is_empty()) {
-        return Err(refused);
-    }
-    if all.is_empty() {
-        let shortest = tried.iter().map(|tried| tried.step).fold(f64::INFINITY, f64::min);
-        return Err(Error::usage(
-            format!("sampling.error (--error {bound})"),
-            format!(
-                "is met by no step that was tried, down to {shortest} voxels: the least error that was found is {least:.1e}"
-            ),
-            "ask for a larger error; surfaces and jumps of the transfer function are off by whole colours where a ray just misses them",
-        ));
-    }
-    Ok(all)
+    Ok(found.into_iter().map(record).collect())
 }
 
 /// What steps are sought with, and what they are held against.
@@ -132,71 +137,57 @@ struct Looks {
     search: SmallLook,
     confirm: SmallLook,
     bound: f64,
+    norm: ErrorNorm,
+    tried: Vec<Tried>,
+    /// Why the first way was refused that the scene cannot have.
+    refused: Option<Error>,
 }
 
 impl Looks {
     /// The first of some ways of sampling that meets the bound, and its error in a small picture; none where none does, or the scene cannot
     /// have them. Those that cannot meet it, by what the ones before them are off by, are left out.
-    fn longest(
-        &self,
-        ways: Vec<SamplingSettings>,
-        tried: &mut Vec<Tried>,
-        refused: &mut Option<Error>,
-    ) -> Option<(SamplingSettings, f64)> {
+    fn longest(&mut self, ways: Vec<SamplingSettings>) -> Option<(SamplingSettings, f64)> {
         let mut longest = f64::INFINITY;
         for sampling in ways {
             if sampling.step > longest {
                 continue;
             }
-            let mut largest = match self.search.largest(&sampling) {
-                Ok(largest) => largest,
+            let mut error = match self.search.error(&sampling, self.norm) {
+                Ok(error) => error,
                 Err(e) => {
-                    refused.get_or_insert(e);
+                    self.refused.get_or_insert(e);
                     return None;
                 }
             };
-            let mut over = SEARCHED.safety * largest / self.bound;
+            let mut over = SEARCHED.safety(self.norm) * error / self.bound;
             if over <= 1.0 {
-                largest = self.confirm.largest(&sampling).ok()?;
-                over = CONFIRMED.safety * largest / self.bound;
+                error = self.confirm.error(&sampling, self.norm).ok()?;
+                over = CONFIRMED.safety(self.norm) * error / self.bound;
             }
-            tried.push(Tried { classification: sampling.classification, step: sampling.step, largest });
+            let SamplingSettings { classification, step, termination, .. } = sampling;
+            self.tried.push(Tried { classification, step, termination, error });
             if over <= 1.0 {
-                return Some((sampling, largest));
+                return Some((sampling, error));
             }
-            longest = FASTER * sampling.step / over.sqrt();
+            longest = FASTER * step / over.sqrt();
         }
         None
     }
-}
 
-/// A small picture of the view of a scene, and what it ought to be.
-struct SmallLook {
-    scene: Scene,
-    exact: Vec<[f64; 4]>,
-}
-
-impl SmallLook {
-    fn of(scene: &Scene, small: Small) -> Result<Self> {
-        let mut scene = scene.clone();
-        let [width, height] = scene.settings.image.size.map(f64::from);
-        let scale = (small.side / width.max(height)).min(1.0);
-        scene.settings.image.size = [width, height].map(|side| (side * scale).round().max(1.0) as u32);
-        scene.settings.method.name = CPU.name();
-        let rays = scene.camera.rays(scene.settings.image.size)?;
-        let exact = ExactIntegrator::of(&scene).picture(&rays, scene.settings.image.size);
-        Ok(Self { scene, exact })
-    }
-
-    /// The largest error with a way of sampling.
-    fn largest(&self, sampling: &SamplingSettings) -> Result<f64> {
-        let mut scene = self.scene.clone();
-        scene.settings.sampling = sampling.clone();
-        plan::check(&scene)?;
-        let plan = plan::plan(&scene, None)?;
-        let drawn = cpu::run(&scene, &plan, &Structures::default(), cpu::SUB_PIXEL_BITS);
-        let off = |(a, b): (&[f64; 4], &[f64; 4])| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
-        Ok(drawn.pixels.iter().zip(&self.exact).map(off).fold(0.0, f64::max))
+    /// Why nothing that was tried will do.
+    fn unmet(self) -> Error {
+        if let Some(refused) = self.refused.filter(|_| self.tried.is_empty()) {
+            return refused;
+        }
+        let least = self.tried.iter().map(|tried| tried.error).fold(f64::INFINITY, f64::min);
+        let shortest = self.tried.iter().map(|tried| tried.step).fold(f64::INFINITY, f64::min);
+        Error::usage(
+            format!("sampling.error (--error {})", self.bound),
+            format!(
+                "is met by no step that was tried, down to {shortest} voxels: the least error that was found is {least:.1e}"
+            ),
+            "ask for a larger error; surfaces and jumps of the transfer function are off by whole colours where a ray just misses them",
+        )
     }
 }
 
@@ -208,24 +199,36 @@ fn classifications(scene: &Scene) -> Vec<Classification> {
     }
 }
 
-/// Ways of sampling of a classification, the longest steps first.
-fn steps(scene: &Scene, classification: Classification, bound: f64) -> Vec<SamplingSettings> {
+/// Opacities at which rays end that are tried, the greatest first.
+fn terminations(scene: &Scene, bound: f64) -> Vec<f64> {
+    let (asked, default) = (&scene.settings.sampling, SamplingSettings::default());
+    let missed: &[f64] = match asked.error_norm {
+        ErrorNorm::Largest => &[OF_ENDS],
+        ErrorNorm::Rmse => &OF_ENDS_IN_THE_MEAN,
+    };
+    let mut all: Vec<f64> = match asked.termination == default.termination {
+        true => missed.iter().map(|part| (1.0 - part * bound).max(EARLIEST)).collect(),
+        false => vec![asked.termination],
+    };
+    all.dedup();
+    all
+}
+
+/// Ways of sampling of a classification that end rays at an opacity, the longest steps first.
+fn steps(scene: &Scene, classification: Classification, termination: f64) -> Vec<SamplingSettings> {
     let (asked, default) = (&scene.settings.sampling, SamplingSettings::default());
     let all: Vec<f64> = if asked.step == default.step { STEPS.to_vec() } else { vec![asked.step] };
     // Slices have no parts of steps.
     let on_slices = method::find(scene.settings.method.name).is_some_and(|method| method.stack().is_some());
     let of_step = |step: f64| {
         // What is chosen is written down as if it had been asked for, and drawn again as it is.
-        let mut sampling = SamplingSettings { step, classification, error: None, ..asked.clone() };
+        let mut sampling = SamplingSettings { step, classification, termination, error: None, ..asked.clone() };
         // A sample in the middle of its step is of the second order, and the last one stands for what there is.
         if asked.offset == default.offset && classification == Classification::Post && scene.surface.is_none() {
             sampling.offset = Offset::Midpoint;
         }
         if asked.last == default.last && !on_slices {
             sampling.last = Last::Partial;
-        }
-        if asked.termination == default.termination {
-            sampling.termination = 1.0 - OF_ENDS * bound.min(1.0);
         }
         sampling
     };

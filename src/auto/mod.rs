@@ -9,6 +9,7 @@ mod cost;
 mod error;
 mod look;
 mod record;
+mod small;
 mod work;
 
 pub use choose::{DeviceFacts, MethodFacts, choose, settle};

@@ -79,7 +79,7 @@ impl Work {
         let mut sum = Self { pixels, passes, ..Self::default() };
         for cluster in look.clusters.iter().filter(|cluster| !in_tiles || anything_shows(cluster)) {
             let walks = cluster.iter().map(|ray| Walk { method, tuning, look, ray });
-            sum.add(walks.map(|walk| walk.trace()).collect(), method.loops().then_some(m));
+            sum.add(walks.map(|walk| walk.trace()).collect());
         }
         let rays = look.rays().count().max(1) as f64;
         sum.times(look.pixels / rays)
@@ -91,8 +91,8 @@ impl Work {
         Self { main_lanes: self.main_lanes.max(all.main_lanes), samples: self.samples.max(all.samples), shown, ..self }
     }
 
-    /// Adds what a cluster of rays does; in loops that take so many samples between looks.
-    fn add(&mut self, traces: Vec<Trace>, loops: Option<f64>) {
+    /// Adds what a cluster of rays does.
+    fn add(&mut self, traces: Vec<Trace>) {
         let rays = traces.len() as f64;
         let passes = traces.iter().map(|trace| trace.passes.len()).max().unwrap_or(0);
         for pass in 0..passes {
@@ -100,11 +100,10 @@ impl Work {
             let most = |of: fn(&PassOfRay) -> f64| rays * of_pass().map(of).fold(0.0, f64::max);
             self.main += of_pass().map(|one| one.main).sum::<f64>();
             self.intermediate += of_pass().map(|one| one.intermediate).sum::<f64>();
-            let (samples, lookups) = (most(|one| one.samples), most(|one| one.lookups));
             self.main_lanes += most(|one| one.main);
-            self.samples += loops.map_or(samples, |m| (rays * together(of_pass(), m)).max(samples));
+            self.samples += most(|one| one.samples);
             self.intermediate_lanes += most(|one| one.intermediate);
-            self.lookups += lookups;
+            self.lookups += most(|one| one.lookups);
         }
         self.shown += traces.iter().map(|trace| trace.shown).sum::<f64>();
     }
@@ -125,18 +124,6 @@ impl Work {
     }
 }
 
-/// Rays that a device shades together.
-const LANES: f64 = 8.0;
-
-/// Samples of a loop, `m` behind each look that finds none free, that any of the rays takes which are shaded together: each leaps where it
-/// may, so that they are out of step, and who leaps waits for those that sample.
-fn together<'a>(rays: impl Iterator<Item = &'a PassOfRay> + Clone, m: f64) -> f64 {
-    let rounds = rays.clone().map(|ray| ray.lookups).fold(0.0, f64::max);
-    let count = rays.clone().count().max(1) as f64;
-    let none = |ray: &PassOfRay| (1.0 - ray.samples / m / rounds.max(1.0)).clamp(0.0, 1.0).powf(LANES / count);
-    m * rounds * (1.0 - rays.map(none).product::<f64>())
-}
-
 /// What a method does on a ray.
 #[derive(Clone, Debug, Default)]
 struct Trace {
@@ -144,7 +131,8 @@ struct Trace {
     shown: f64,
 }
 
-/// What a main pass does on a ray, with the intermediate pass before it.
+/// What a main pass does on a ray, with the intermediate pass before it; or a round of a loop, which leaps as far as it can and then
+/// takes M samples.
 #[derive(Clone, Copy, Debug, Default)]
 struct PassOfRay {
     main: f64,
@@ -192,25 +180,28 @@ impl Walk<'_> {
         seen[from..to].iter().filter(|seen| seen.shows).count() as f64
     }
 
-    /// One loop for all samples, which leaps over those that are free.
+    /// One loop for all samples, which leaps over those that are free: all rays that are shaded together, and then all sample.
     fn in_a_loop(&self) -> Trace {
-        let mut pass = PassOfRay { main: 1.0, ..PassOfRay::default() };
+        let mut trace = Trace::default();
         let looks_ahead = self.looks_ahead();
         let end = self.ray.seen.len();
-        let (mut i, mut shown) = (0, 0.0);
-        while i < end {
-            let free = if looks_ahead { self.free_from(i) } else { 0 };
-            pass.lookups += f64::from(u8::from(looks_ahead));
-            if free > 0 {
-                i += free;
-                continue;
+        let mut i = 0;
+        while i < end || trace.passes.is_empty() {
+            let mut round = PassOfRay { main: f64::from(u8::from(trace.passes.is_empty())), ..PassOfRay::default() };
+            while looks_ahead && i < end {
+                round.lookups += 1.0;
+                match self.free_from(i) {
+                    0 => break,
+                    free => i += free,
+                }
             }
-            let next = if looks_ahead { (i + self.tuning.samples_per_pass as usize).min(end) } else { end };
-            pass.samples += (next - i) as f64;
-            shown += self.shown(i, next);
-            i = next;
+            let from = i.min(end);
+            i = if looks_ahead { (from + self.tuning.samples_per_pass as usize).min(end) } else { end };
+            round.samples = (i - from) as f64;
+            trace.shown += self.shown(from, i);
+            trace.passes.push(round);
         }
-        Trace { passes: vec![pass], shown }
+        trace
     }
 
     fn segments(&self, samples: usize) -> usize {

@@ -55,7 +55,7 @@ pub use method::{Builder, CELLS, SliceCut, Tiles};
 pub use parse::number as finite_number;
 pub use placed::Placed;
 pub use refraction::Refraction;
-pub use sampling::{Alpha, Classification, EXTRA_FETCHES, Filter, Last, Offset};
+pub use sampling::{Alpha, Classification, EXTRA_FETCHES, ErrorNorm, Filter, Last, Offset};
 pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use shells::{MOST_LEVELS, ShellMode, ShellOrder, ShellSum};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};

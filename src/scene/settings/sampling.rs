@@ -30,11 +30,15 @@ section! {
     #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
     step: f64 = 1.0, within STEPS;
 
-    /// Largest error of any channel against the exact integral, a number or a fraction as 1/255: step, T and classification are chosen so
-    /// that they meet it, by a quick look, and with --method auto the fastest method
+    /// Error against the exact integral, a number or a fraction as 1/255: step, T and classification are chosen so that they meet it, by a
+    /// quick look, and with --method auto the fastest method
     #[serde(skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "BOUND", value_parser = fraction, allow_negative_numbers = true)]
     error?: f64, within ERRORS, default "none";
+
+    /// What the error that is asked for is
+    #[arg(long, value_name = "NORM")]
+    error_norm: ErrorNorm = ErrorNorm::Largest;
 
     /// Where in its step a sample is taken
     #[arg(long, value_name = "PLACE")]
@@ -105,6 +109,31 @@ impl SamplingSettings {
     /// Whether a sample stands for all values up to the next one, not for its own alone.
     pub fn preintegrates(&self) -> bool {
         self.classification == Classification::PreIntegrated
+    }
+}
+
+/// How the differences of two pictures become one number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum ErrorNorm {
+    /// The largest of any channel of any pixel.
+    #[default]
+    Largest,
+    /// The root of the mean square over all channels of all pixels.
+    Rmse,
+}
+
+impl ErrorNorm {
+    /// The norm of differences of premultiplied RGBA, a pixel each; 0 of none.
+    pub fn of(self, differences: impl Iterator<Item = [f64; 4]>) -> f64 {
+        match self {
+            Self::Largest => differences.flatten().fold(0.0, |most, d| most.max(d.abs())),
+            Self::Rmse => {
+                let (mut sum, mut count) = (0.0, 0.0f64);
+                differences.flatten().for_each(|d| (sum, count) = (sum + d * d, count + 1.0));
+                (sum / count.max(1.0)).sqrt()
+            }
+        }
     }
 }
 
