@@ -147,9 +147,10 @@ fn compare(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
     Ok(())
 }
 
-/// How often a smaller error is asked for, and by how much, where the look has promised too much.
+/// How often a smaller error is asked for where the look has promised too much, which knows nothing of how a texture unit interpolates; and
+/// how much smaller than what was missed.
 const TRIES: usize = 5;
-const SMALLER: f64 = 0.93;
+const SMALLER: f64 = 0.95;
 
 /// Methods that are measured, the best by their estimates.
 const MEASURED: usize = 3;
@@ -173,16 +174,16 @@ fn compare_at_equal_error(checked: &Checked, name: &str, scene: &Scene) -> Resul
             (chosen.settings.sampling.error, chosen.settings.sampling.error_norm) = (Some(bound), ErrorNorm::Rmse);
             let Some(record) = settle(&mut chosen, &DeviceFacts::default())? else { break };
             let ours = ours(checked, &chosen, name, &record, MEASURED)?;
-            let met = ours.iter().all(|one| one.rmse(&exact) <= theirs.rmse(&exact));
-            for one in ours.iter().filter(|_| met) {
+            println!("    {}", record.error.iter().map(ErrorChoice::words).collect::<String>());
+            for one in &ours {
                 println!("    {:<46} {:<24} rmse {:.1e}", one.words, one.times.words(), one.rmse(&exact));
             }
-            if met {
-                println!("    {}", record.error.iter().map(ErrorChoice::words).collect::<String>());
+            let worst = ours.iter().map(|one| one.rmse(&exact)).fold(0.0, f64::max);
+            if worst <= theirs.rmse(&exact) {
                 println!("    {}", ratios(&ours, &theirs));
                 break;
             }
-            bound *= SMALLER;
+            bound *= SMALLER * theirs.rmse(&exact) / worst;
         }
     }
     Ok(())

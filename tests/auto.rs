@@ -8,7 +8,7 @@ use depthleap::method::{self, METHODS};
 use depthleap::part::rows::Method;
 use depthleap::plan::plan;
 use depthleap::read;
-use depthleap::scene::settings::{Cull, ErrorNorm, Last, MethodName};
+use depthleap::scene::settings::{Cull, ErrorNorm, Last, LeftOpen, MethodName};
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Scene, Settings, Volume};
 use depthleap::truth::exact::ExactIntegrator;
@@ -387,6 +387,42 @@ fn a_method_that_is_named_is_kept_and_given_settings_that_meet_the_error() {
     (scene.settings.sampling.step, scene.settings.sampling.error) = (0.03, Some(0.01));
     let again = settle(&mut scene, &DeviceFacts::default()).unwrap().and_then(|record| record.error);
     assert_eq!(again.map(|error| error.step), Some(0.03));
+}
+
+#[test]
+fn numbers_of_a_named_method_that_are_left_open_are_chosen_and_nothing_else() {
+    let settled = |change: fn(&mut Settings)| {
+        let mut scene = scene("jets:24", "ramp", change);
+        let record = settle(&mut scene, &DeviceFacts::default()).unwrap();
+        (scene.settings, record)
+    };
+    let auto =
+        || toml::from_str::<Settings>("sampling.samples_per_pass = \"auto\"\nmethod.lookups = \"auto\"").unwrap();
+    assert_eq!(LeftOpen::of(&auto()), LeftOpen { samples_per_pass: true, lookups: true });
+    let (settings, record) = settled(|s| {
+        (s.method.name, s.sampling.samples_per_pass, s.method.lookups) = (method::NN_OMNI.name(), 0, 0);
+    });
+    let record = record.expect("a record");
+    assert!(record.named && record.weighed.len() == 1, "{record:?}");
+    assert_eq!((settings.method.name, settings.method.cell), (method::NN_OMNI.name(), 1));
+    let chosen = [settings.sampling.samples_per_pass, settings.method.lookups];
+    assert_eq!(chosen, [record.chosen.samples_per_pass, record.chosen.lookups]);
+    assert!(chosen[0] >= 8 && chosen[1] >= 1, "{chosen:?}");
+    // One of both stays as it is written.
+    let (settings, _) = settled(|s| {
+        (s.method.name, s.sampling.samples_per_pass, s.method.lookups) = (method::NN_OMNI.name(), 0, 1);
+    });
+    assert_eq!(settings.method.lookups, 1);
+    // A method that nobody weighs has the numbers by default.
+    let (settings, record) = settled(|s| (s.method.name, s.sampling.samples_per_pass) = (method::CPU.name(), 0));
+    assert_eq!((settings.sampling.samples_per_pass, record), (8, None));
+}
+
+#[test]
+fn numbers_that_nobody_has_chosen_are_refused() {
+    let open = scene("jets:24", "ramp", |s| (s.method.name, s.method.lookups) = (method::NN_OMNI.name(), 0));
+    let refused = plan(&open, method::papers_form(method::NN_OMNI.name())).unwrap_err().to_string();
+    assert!(refused.contains("method.lookups") && refused.contains("give a number"), "{refused}");
 }
 
 #[test]

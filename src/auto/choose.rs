@@ -1,20 +1,18 @@
 //! The choice: every method that draws the scene is weighed, the best of them with other settings besides.
 
-use cpu_time::ThreadTime;
-
 use super::cost::{build_ms, frame_ms, ranges_pay, served};
-use super::error::meeting;
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
+use super::tunings::{first, takes_passes, tunings};
 use super::work::{Tuning, WayOfWorking, Work};
 use crate::error::{Error, Result};
 use crate::feature::tiles;
-use crate::method::{self, METHODS, SINGLE_PASS};
+use crate::method::{self, METHODS};
 use crate::part::form::Form;
-use crate::part::rows::{Ahead, Method};
+use crate::part::rows::Method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, Mark, MethodSettings, SamplingSettings, Settings, Tiles};
+use crate::scene::settings::{Cull, LeftOpen, Mark, MethodSettings, Tiles};
 
 /// What is known of a device when a method is chosen for it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,119 +40,23 @@ impl DeviceFacts {
     }
 }
 
-/// Settings of methods that are weighed where the scene leaves them as they are by default.
-const SAMPLES_PER_PASS: [u32; 3] = [8, 16, 32];
-/// Of loops that look ahead: samples that a ray takes before it looks again.
-const SAMPLES_PER_LOOK: [u32; 3] = [4, 8, 16];
-const LOOKUPS: [u32; 2] = [1, 16];
-const CELLS: [u32; 3] = [1, 2, 4];
-
-/// The settings that a method is weighed with first, and how many methods are weighed with all of them.
-const FIRST: Tuning = Tuning { samples_per_pass: 32, lookups: 16, cell: 1, first: false };
+/// How many methods are weighed with all their settings.
 const REFINED: usize = 4;
-
-/// Puts a method and its settings in place of `auto`, and steps that meet the error that is asked for; other scenes stay as they are.
-///
-/// # Errors
-/// As [`choose`], and when no step meets the error.
-pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecord>> {
-    let asked = scene.settings.sampling.error;
-    if asked.is_some() {
-        takes_errors(scene)?;
-    }
-    if !scene.settings.method.name.is_auto() && asked.is_none() {
-        return Ok(None);
-    }
-    if scene.tetrahedra.is_some() {
-        // Those of cells differ in little, and none is weighed.
-        let cells = METHODS.into_iter().find(|method| method.goes_through_cells() && method.loops());
-        scene.settings.method.name = cells.map_or_else(Default::default, Method::name);
-        return Ok(None);
-    }
-    if scene.settings.adaptive.importance {
-        // Whoever takes them, steps are those that the importance volume allows, and a loop has nothing between them.
-        scene.settings.method.name = SINGLE_PASS.name();
-        return Ok(None);
-    }
-    let begin = ThreadTime::now();
-    let mut record = match asked {
-        None => choose(scene, facts)?,
-        Some(bound) => {
-            let (sampling, record) = choose_meeting(scene, facts, bound)?;
-            scene.settings.sampling = sampling;
-            record
-        }
-    };
-    let Estimate { method, samples_per_pass, lookups, cell, .. } = &record.chosen;
-    let settings = &mut scene.settings;
-    settings.sampling.samples_per_pass = *samples_per_pass;
-    (settings.method.lookups, settings.method.cell) = (*lookups, *cell);
-    settings.method.name =
-        method.parse().map_err(|e: String| Error::usage("--method auto", e, "please report this"))?;
-    if record.tiles && method::find(settings.method.name).is_some_and(tiles::are_left_out_by) {
-        settings.method.tiles = Tiles::Live;
-    }
-    record.look_ms = begin.elapsed().as_secs_f64() * MILLISECONDS;
-    Ok(Some(record))
-}
-
-/// Whether steps can be chosen so that they meet an error.
-///
-/// # Errors
-/// When the scene has no steps, or steps by a tolerance of their own, or is drawn by a method that is not weighed.
-fn takes_errors(scene: &Scene) -> Result<()> {
-    let refused = |why: &str, remedy: &str| Err(Error::usage("sampling.error (--error)", why, remedy));
-    let weighed = |method: &Method| method.on_device && method.takes_samples();
-    match () {
-        () if scene.tetrahedra.is_some() => refused(
-            "chooses steps, and ways through cells have lengths of their own",
-            "leave it out: each way is integrated exactly, and --termination 1 ends none early",
-        ),
-        () if scene.settings.adaptive.importance => refused(
-            "chooses steps that are all alike, and adaptive steps have a tolerance of their own",
-            "use --tolerance",
-        ),
-        () if method::find(scene.settings.method.name).is_some_and(|method| !weighed(method)) => refused(
-            "chooses by the time that samples take on a device, which this method has none of",
-            "name another method, or auto",
-        ),
-        () => Ok(()),
-    }
-}
-
-/// The way of sampling that meets an error in the least time, with the method.
-fn choose_meeting(scene: &Scene, facts: &DeviceFacts, bound: f64) -> Result<(SamplingSettings, AutoRecord)> {
-    let mut best: Option<(SamplingSettings, AutoRecord)> = None;
-    let mut refused = None;
-    for (sampling, error) in meeting(scene, bound)? {
-        let mut sampled = scene.clone();
-        sampled.settings.sampling = sampling.clone();
-        // A method may take one classification and not the other.
-        let record = match choose(&sampled, facts) {
-            Ok(record) => AutoRecord { error: Some(error), named: !scene.settings.method.name.is_auto(), ..record },
-            Err(e) => {
-                refused = Some(e);
-                continue;
-            }
-        };
-        if best.as_ref().is_none_or(|(_, best)| record.chosen.ms < best.chosen.ms) {
-            best = Some((sampling, record));
-        }
-    }
-    let none = || Error::usage("sampling.error (--error)", "is met by nothing", "ask for a larger error");
-    best.ok_or_else(|| refused.unwrap_or_else(none))
-}
-
-/// In a second.
-const MILLISECONDS: f64 = 1e3;
 
 /// The method that draws `scene` in the least time, with its part of what is built for it.
 ///
 /// # Errors
 /// When no method draws the scene, with the reason of the last one, or the camera is not one.
 pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
+    let mut scene = scene.clone();
+    let open = LeftOpen::close(&mut scene.settings);
+    choose_open(&scene, facts, open)
+}
+
+/// The same of a scene of which so much was left open.
+pub(super) fn choose_open(scene: &Scene, facts: &DeviceFacts, open: LeftOpen) -> Result<AutoRecord> {
     let mut look = Look::of(scene)?;
-    look.leaves_out_tiles = leaves_out_tiles(scene, &look);
+    look.leaves_out_tiles = leaves_out_tiles(scene, &look, open);
     let mut refused = None;
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
@@ -174,14 +76,14 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     // Where nothing else is left, the device says what it lacks.
     for method in if fit.is_empty() { unfit } else { fit } {
         match draws(method, scene) {
-            Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings))),
+            Ok(()) => weighed.push(scales.weigh(method, first(method, &scene.settings, open))),
             Err(e) => refused = Some(e),
         }
     }
     by_time(&mut weighed);
     for estimate in weighed.iter_mut().take(REFINED) {
         let Some(method) = METHODS.into_iter().find(|method| method.name == estimate.method) else { continue };
-        let others = tunings(method, &scene.settings).into_iter().map(|tuning| scales.weigh(method, tuning));
+        let others = tunings(method, &scene.settings, open).into_iter().map(|tuning| scales.weigh(method, tuning));
         let best = others.min_by(|a, b| a.ms.total_cmp(&b.ms));
         *estimate = best.filter(|best| best.ms < estimate.ms).unwrap_or_else(|| estimate.clone());
     }
@@ -211,11 +113,11 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
 }
 
 /// Whether methods that leave out tiles of pixels behind which nothing shows do so: where that is asked for, or left open and pays.
-fn leaves_out_tiles(scene: &Scene, look: &Look) -> bool {
+fn leaves_out_tiles(scene: &Scene, look: &Look, open: LeftOpen) -> bool {
     let method = &scene.settings.method;
     let leaping = &method::SINGLE_PASS_OMNI;
     let ms = |leaves_out_tiles: bool| {
-        let (look, tuning) = (Look { leaves_out_tiles, ..look.clone() }, first(leaping, &scene.settings));
+        let (look, tuning) = (Look { leaves_out_tiles, ..look.clone() }, first(leaping, &scene.settings, open));
         frame_ms(leaping, tuning, &Work::of(leaping, tuning, &look), scene)
     };
     let pays = || ranges_pay(ms(false) - ms(true), scene.field.values.len() as f64, method.frames);
@@ -224,11 +126,6 @@ fn leaves_out_tiles(scene: &Scene, look: &Look) -> bool {
         tiles => tiles == Tiles::Live,
     };
     asked && tiles::serve(scene).is_ok()
-}
-
-/// Whether a method has passes that can be forced, and M samples in each.
-fn takes_passes(method: &Method) -> bool {
-    !method.loops() && !method.back_to_front()
 }
 
 /// Whether a method has the cull and mark that settings ask for; one that culls nothing has none.
@@ -293,56 +190,6 @@ impl Scales<'_> {
             work,
         }
     }
-}
-
-/// The settings that a method is weighed with first: of each one that may be chosen, that of [`FIRST`].
-fn first(method: &Method, settings: &Settings) -> Tuning {
-    let (asked, all) = (asked(settings), tunings(method, settings));
-    let pick =
-        |of: fn(&Tuning) -> u32| if all.iter().any(|one| of(one) == of(&FIRST)) { of(&FIRST) } else { of(&asked) };
-    Tuning {
-        samples_per_pass: pick(|one| one.samples_per_pass),
-        lookups: pick(|one| one.lookups),
-        cell: pick(|one| one.cell),
-        first: asked.first,
-    }
-}
-
-/// The settings of a scene.
-fn asked(settings: &Settings) -> Tuning {
-    Tuning {
-        samples_per_pass: settings.sampling.samples_per_pass,
-        lookups: settings.method.lookups,
-        cell: settings.method.cell,
-        first: settings.method.block_first,
-    }
-}
-
-/// The settings that a method is weighed with. What the scene has otherwise than by default stays as it is.
-fn tunings(method: &Method, settings: &Settings) -> Vec<Tuning> {
-    let (asked, default) = (asked(settings), asked(&Settings::default()));
-    let pick = |changes: bool, asked: u32, default: u32, all: &[u32]| match changes && asked == default {
-        true => all.to_vec(),
-        false => vec![asked],
-    };
-    // Where passes are forced, M says how far they go.
-    let in_passes = takes_passes(method) && settings.sampling.passes == 0;
-    let in_looks = method.loops() && method.looks_ahead();
-    let of_method = if in_looks { &SAMPLES_PER_LOOK } else { &SAMPLES_PER_PASS };
-    let ms = pick(in_passes || in_looks, asked.samples_per_pass, default.samples_per_pass, of_method);
-    let lookups = pick(method.marks_sections(), asked.lookups, default.lookups, &LOOKUPS);
-    let distances = matches!(method.ahead, Ahead::Distances(_));
-    let cells = pick(distances, asked.cell, default.cell, &CELLS);
-    let mut all = Vec::new();
-    for &samples_per_pass in &ms {
-        for &lookups in &lookups {
-            // A ray needs some samples to get out of a cell in which something shows: looks before that find nothing new.
-            let often = |cell: u32| in_looks && ms.len() > 1 && samples_per_pass < 2 * cell;
-            let cells = cells.iter().filter(|cell| !often(**cell));
-            all.extend(cells.map(|&cell| Tuning { samples_per_pass, lookups, cell, ..asked }));
-        }
-    }
-    all
 }
 
 /// What was found, in sentences.

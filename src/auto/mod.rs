@@ -9,13 +9,16 @@ mod cost;
 mod error;
 mod look;
 mod record;
+mod settle;
 mod small;
+mod tunings;
 mod work;
 
-pub use choose::{DeviceFacts, MethodFacts, choose, settle};
+pub use choose::{DeviceFacts, MethodFacts, choose};
 pub use coarse::Coarse;
 pub use cost::{build_ms, frame_ms};
 pub use error::{ErrorChoice, Tried};
 pub use look::{Look, LookRay, Seen};
 pub use record::{AutoRecord, Estimate};
+pub use settle::{is_asked, settle};
 pub use work::{Tuning, Work};

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::auto::{AutoRecord, DeviceFacts, MethodFacts, settle as settle_for};
+use crate::auto::{AutoRecord, DeviceFacts, MethodFacts, is_asked, settle as settle_for};
 use crate::error::Result;
 use crate::frame::{SelfCheck, Verdict, culls_late};
 use crate::method::METHODS;
@@ -39,7 +39,7 @@ impl Settled {
 }
 
 fn settle(scene: &mut Scene, on: Option<(&Device, &SelfCheck)>) -> Result<Option<AutoRecord>> {
-    if !scene.settings.method.name.is_auto() && scene.settings.sampling.error.is_none() {
+    if !is_asked(&scene.settings) {
         return Ok(None);
     }
     let facts = on.map(|(device, check)| facts(scene, device, check));

@@ -21,7 +21,7 @@ use crate::part::{Step, Work};
 use crate::resource;
 use crate::scene::Scene;
 use crate::scene::gathered::Gathered;
-use crate::scene::settings::{Builder, Cull, DepthFormat, Mark};
+use crate::scene::settings::{Builder, Cull, DepthFormat, LeftOpen, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
 use crate::structure::{Lookup, content};
@@ -134,6 +134,7 @@ pub fn form(scene: &Scene, automatic: Option<Form>) -> Result<Option<Form>> {
 /// # Errors
 /// When it does not, with what to do.
 pub fn check(scene: &Scene) -> Result<()> {
+    LeftOpen::refuse(&scene.settings)?;
     let method = method::of(scene.settings.method.name)?;
     (method.takes)(scene)?;
     crate::truth::preintegrated::check(scene)?;

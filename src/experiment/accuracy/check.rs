@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::method;
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{MethodName, Shows};
+use crate::scene::settings::{LeftOpen, MethodName, Shows};
 use crate::truth::known;
 
 /// Whether a job can be measured.
@@ -17,6 +17,7 @@ use crate::truth::known;
 /// When a method, a step or what a surface shows cannot be.
 pub fn check_settings(job: &AccuracyJob, scene: &Scene) -> Result<()> {
     job.settings.sampling.as_written()?;
+    LeftOpen::refuse(&job.settings)?;
     if job.methods.iter().any(|method| !method::find(*method).is_some_and(|row| row.on_device)) {
         let remedy = "leave it out; every picture is held against the exact integral";
         return Err(Error::usage("--method cpu", "is the sum in f64, which has no frame time", remedy));

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::section::section;
+use super::tuned;
 use crate::scene::limits::{Allowed, Limits};
 use crate::scene::method::{Cull, DepthFormat, Mark, MethodName};
 
@@ -80,9 +81,11 @@ section! {
     #[arg(long, num_args = 0, default_missing_value = "true")]
     moving: bool = false;
 
-    /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis'
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    lookups: u32 = 1, within Limits::from_to(1.0, 1024.0, "a number {}");
+    /// nn-*: how often a ray may look up a distance in a segment before it has to run there; 1 is the thesis', auto, or 0, has it chosen
+    /// for the scene
+    #[serde(deserialize_with = "tuned::number")]
+    #[arg(long, value_name = "N", value_parser = tuned::option, allow_negative_numbers = true)]
+    lookups: u32 = 1, within Limits::from_to(f64::from(tuned::AUTO), 1024.0, "a number {}, or auto");
 
     /// single-pass-*: the tiles of 8 x 8 pixels that are drawn
     #[arg(long, value_name = "WHICH")]

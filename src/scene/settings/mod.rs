@@ -31,6 +31,7 @@ mod shading;
 mod shells;
 mod surface;
 mod transfer;
+mod tuned;
 mod volume;
 
 use std::path::PathBuf;
@@ -59,6 +60,7 @@ pub use sampling::{Alpha, Classification, EXTRA_FETCHES, ErrorNorm, Filter, Last
 pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use shells::{MOST_LEVELS, ShellMode, ShellOrder, ShellSum};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
+pub use tuned::LeftOpen;
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 
 /// Joins the sections.

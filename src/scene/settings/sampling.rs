@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::section::section;
+use super::tuned;
 use crate::error::{self, Error};
 use crate::scene::limits::Limits;
 
@@ -60,9 +61,10 @@ section! {
     #[arg(long, value_name = "WHAT")]
     classification: Classification = Classification::Post;
 
-    /// M, samples per main pass
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    samples_per_pass: u32 = 8, within Limits::from_to(1.0, MAX_COUNT, "a number {}");
+    /// M, samples per main pass; auto, or 0, has it chosen for the scene
+    #[serde(deserialize_with = "tuned::number")]
+    #[arg(long, value_name = "M", value_parser = tuned::option, allow_negative_numbers = true)]
+    samples_per_pass: u32 = 8, within Limits::from_to(f64::from(tuned::AUTO), MAX_COUNT, "a number {}, or auto");
 
     /// N, main passes; 0 takes as many as the longest ray of the view needs
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
