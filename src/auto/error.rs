@@ -15,10 +15,8 @@ use crate::scene::settings::{Classification, ErrorNorm, Last, Offset, SamplingSe
 use crate::truth::known;
 
 /// Steps that are tried, in voxels, the longest first.
-const STEPS: [f64; 22] = [
-    4.0, 3.5, 3.0, 2.5, 2.0, 1.75, 1.5, 1.25, 1.0, 0.85, 0.75, 0.6, 0.5, 0.42, 0.35, 0.3, 0.25, 0.21, 0.18, 0.15,
-    0.125, 0.0625,
-];
+const STEPS: [f64; 18] =
+    [4.0, 3.0, 2.5, 2.0, 1.75, 1.5, 1.25, 1.0, 0.85, 0.7, 0.6, 0.5, 0.42, 0.35, 0.25, 0.18, 0.125, 0.0625];
 
 /// No error falls faster than with the square of the step; by so much more it may.
 const FASTER: f64 = 1.5;
@@ -148,6 +146,8 @@ impl Looks {
     /// have them. Those that cannot meet it, by what the ones before them are off by, are left out.
     fn longest(&mut self, ways: Vec<SamplingSettings>) -> Option<(SamplingSettings, f64)> {
         let mut longest = f64::INFINITY;
+        // How many times the error of the picture that is sought with that of the one it is held against has been.
+        let mut larger = 0.0f64;
         for sampling in ways {
             if sampling.step > longest {
                 continue;
@@ -159,10 +159,12 @@ impl Looks {
                     return None;
                 }
             };
-            let mut over = SEARCHED.safety(self.norm) * error / self.bound;
+            let safety = SEARCHED.safety(self.norm).max(larger * CONFIRMED.safety(self.norm));
+            let mut over = safety * error / self.bound;
             if over <= 1.0 {
-                error = self.confirm.error(&sampling, self.norm).ok()?;
-                over = CONFIRMED.safety(self.norm) * error / self.bound;
+                let found = self.confirm.error(&sampling, self.norm).ok()?;
+                larger = larger.max(found / error.max(f64::MIN_POSITIVE));
+                (error, over) = (found, CONFIRMED.safety(self.norm) * found / self.bound);
             }
             let SamplingSettings { classification, step, termination, .. } = sampling;
             self.tried.push(Tried { classification, step, termination, error });
