@@ -13,7 +13,7 @@ use super::square::{FAR_SQUARED, reach, square_of};
 pub const LANES: usize = 16;
 
 /// Places from one that is settled by halving to the next.
-const ANCHOR: usize = 8;
+pub(super) const ANCHOR: usize = 8;
 
 /// A squared distance in some unit.
 pub trait Square: Copy + Ord + Send + Sync + 'static {
@@ -88,11 +88,21 @@ impl Towards {
     pub const WAYS: [Self; 2] = [Self::Up, Self::Down];
 
     /// The places that rays from `place` come to, of those from the first to the last.
-    fn within(self, place: usize, [first, last]: [usize; 2]) -> [usize; 2] {
+    pub(super) fn within(self, place: usize, [first, last]: [usize; 2]) -> [usize; 2] {
         match self {
             Self::Either => [first, last],
             Self::Up => [first.max(place), last],
             Self::Down => [first, last.min(place)],
+        }
+    }
+
+    /// The same places and all before them that rays from `place` come to: where they come to nothing near now, what comes near
+    /// later may be the nearest of places that rays pass before.
+    fn with(self, place: usize, [first, last]: [usize; 2]) -> [usize; 2] {
+        match self {
+            Self::Either => [first, last],
+            Self::Up => [first, last.max(place)],
+            Self::Down => [first.min(place), last],
         }
     }
 }
@@ -126,15 +136,15 @@ pub fn first_axis<S: Square>(ways: &[S], towards: Towards, flags: &[bool], squar
 
 /// Columns of one length.
 pub struct Columns<S> {
-    ways: Vec<S>,
+    pub(super) ways: Vec<S>,
     /// What is to be transformed.
-    squares: Vec<[S; LANES]>,
+    pub(super) squares: Vec<[S; LANES]>,
     /// What has become of it.
     pub least: Vec<[S; LANES]>,
-    /// `squares` with each place as near as its neighbour is that rays go away from.
-    feet: Vec<[S; LANES]>,
+    /// The [`foot`] of each place.
+    pub(super) feet: Vec<[S; LANES]>,
     /// Between which places all nearest ones of an anchor are.
-    bounds: Vec<[usize; 2]>,
+    pub(super) bounds: Vec<[usize; 2]>,
 }
 
 impl<S: Square> Columns<S> {
@@ -179,41 +189,46 @@ impl<S: Square> Columns<S> {
         let mut nearest = [S::FAR; LANES];
         self.feet.iter().for_each(|row| nearest = least(nearest, *row));
         let anchors = self.bounds.len();
-        let top = anchors.next_power_of_two();
-        self.settle(0, [first, last], towards, &nearest);
-        let mut stride = top / 2;
-        while stride > 0 {
-            for anchor in (stride..anchors).step_by(2 * stride) {
-                let from = self.bounds[anchor - stride][0];
-                let to = self.bounds.get(anchor + stride).map_or(last, |bounds| bounds[1]);
-                self.settle(anchor, [from, to], towards, &nearest);
-            }
-            stride /= 2;
-        }
+        self.halve([0, anchors], [first, last], towards, &nearest);
         for anchor in 0..anchors {
-            let from = self.bounds[anchor][0];
-            let to = self.bounds.get(anchor + 1).map_or(last, |bounds| bounds[1]);
+            let bounds = self.between(anchor, last);
             for place in anchor * ANCHOR + 1..((anchor + 1) * ANCHOR).min(self.least.len()) {
-                self.look(place, towards.within(place, [from, to]));
+                self.look(place, towards.within(place, bounds));
             }
         }
     }
 
-    fn dilate(&mut self, towards: Towards) {
-        let squares = &self.squares;
-        for (place, foot) in self.feet.iter_mut().enumerate() {
-            *foot = squares[place];
-            if towards != Towards::Down && place + 1 < squares.len() {
-                *foot = least(*foot, squares[place + 1]);
-            }
-            if towards != Towards::Up && place > 0 {
-                *foot = least(*foot, squares[place - 1]);
-            }
+    pub(super) fn dilate(&mut self, towards: Towards) {
+        for (place, to) in self.feet.iter_mut().enumerate() {
+            *to = foot(&self.squares, place, towards);
+        }
+    }
+
+    /// Between which places all nearest ones are of an anchor and of the places from it to the next, which is settled too. None
+    /// is beyond `last`.
+    pub(super) fn between(&self, anchor: usize, last: usize) -> [usize; 2] {
+        [self.bounds[anchor][0], self.bounds.get(anchor + 1).map_or(last, |bounds| bounds[1])]
+    }
+
+    /// Settles the anchors from the first to one before the second, whose nearest places are within `bounds`.
+    pub(super) fn halve(
+        &mut self,
+        [begin, end]: [usize; 2],
+        [from, to]: [usize; 2],
+        towards: Towards,
+        nearest: &[S; LANES],
+    ) {
+        if begin < end {
+            let middle = begin.midpoint(end);
+            self.settle(middle, [from, to], towards, nearest);
+            let [least, most] = self.bounds[middle];
+            self.halve([begin, middle], [from, most], towards, nearest);
+            self.halve([middle + 1, end], [least, to], towards, nearest);
         }
     }
 
     /// Finds the least of a place that is no anchor.
-    fn look(&mut self, place: usize, [first, last]: [usize; 2]) {
+    pub(super) fn look(&mut self, place: usize, [first, last]: [usize; 2]) {
         let mut best = [S::FAR; LANES];
         for there in first..=last {
             let (way, feet) = (self.ways[place.abs_diff(there)], &self.feet[there]);
@@ -241,14 +256,28 @@ impl<S: Square> Columns<S> {
             }
         }
         self.least[place] = best;
+        let bounds = towards.with(place, bounds);
         let mut found = [usize::MAX, 0];
         for lane in (0..LANES).filter(|lane| nearest[*lane] < S::FAR) {
             let at = at[lane].place();
             let of_lane = if best[lane] < S::FAR { [at, at] } else { bounds };
             found = [found[0].min(of_lane[0]), found[1].max(of_lane[1])];
         }
-        self.bounds[anchor] = found;
+        self.bounds[anchor] = if found[0] <= found[1] { found } else { bounds };
     }
+}
+
+/// The squares of a place, or those of the neighbour that rays go away from where these are less: ways are counted between
+/// boxes.
+pub(super) fn foot<S: Square>(squares: &[[S; LANES]], place: usize, towards: Towards) -> [S; LANES] {
+    let mut foot = squares[place];
+    if towards != Towards::Down && place + 1 < squares.len() {
+        foot = least(foot, squares[place + 1]);
+    }
+    if towards != Towards::Up && place > 0 {
+        foot = least(foot, squares[place - 1]);
+    }
+    foot
 }
 
 fn take<S: Square>(squares: &mut [S; LANES], row: &[S]) {
@@ -261,6 +290,6 @@ fn take<S: Square>(squares: &mut [S; LANES], row: &[S]) {
     }
 }
 
-fn least<S: Square>(a: [S; LANES], b: [S; LANES]) -> [S; LANES] {
+pub(super) fn least<S: Square>(a: [S; LANES], b: [S; LANES]) -> [S; LANES] {
     std::array::from_fn(|lane| a[lane].min(b[lane]))
 }

@@ -10,7 +10,10 @@ pub mod gradients;
 pub mod grid;
 pub mod octants;
 pub mod ranges;
+mod repair;
 pub mod square;
+pub mod transform;
+pub mod update;
 pub mod wide;
 
 use glam::DVec3;
