@@ -23,6 +23,8 @@ pub trait Square: Copy + Ord + Send + Sync + 'static {
     fn of_way(count: usize, weight: u32) -> Self;
     /// The sum; [`Square::FAR`] or more where it is far.
     fn plus(self, way: Self) -> Self;
+    /// The next larger one, but none that is larger than [`Square::FAR`].
+    fn next(self) -> Self;
     /// The number of a place in a column, as wide as squares are, so that lanes hold as many of both.
     fn of_place(place: usize) -> Self;
     fn place(self) -> usize;
@@ -41,6 +43,11 @@ impl Square for u16 {
     #[inline]
     fn plus(self, way: Self) -> Self {
         self.saturating_add(way)
+    }
+
+    #[inline]
+    fn next(self) -> Self {
+        self.saturating_add(1)
     }
 
     fn of_place(place: usize) -> Self {
@@ -64,6 +71,11 @@ impl Square for u32 {
     fn plus(self, way: Self) -> Self {
         // Each is 2^29 at the most.
         self + way
+    }
+
+    #[inline]
+    fn next(self) -> Self {
+        Self::FAR.min(self + 1)
     }
 
     fn of_place(place: usize) -> Self {

@@ -42,16 +42,21 @@ pub(super) struct Repair<S> {
 
 impl<S: Square> Repair<S> {
     pub fn new(length: usize, weight: u32) -> Self {
-        let before = vec![[S::FAR; LANES]; length];
-        let spans = vec![[0; 2]; anchors(length)];
-        Self { columns: Columns::new(length, weight), before, stale: vec![false; length], spans, whole: false }
+        let (rows, anchors) = (vec![[S::FAR; LANES]; length], anchors(length));
+        Self {
+            columns: Columns::new(length, weight),
+            before: rows,
+            stale: vec![false; length],
+            spans: vec![[0; 2]; anchors],
+            whole: false,
+        }
     }
 
     /// Takes the rows as they are now, and those of them that have changed, in their order; none where all may have.
-    pub fn load<'a>(&mut self, row: impl Fn(usize) -> &'a [S], changes: Option<&[Change<S>]>) {
-        self.columns.load(row);
+    pub fn load(&mut self, rows: &[[S; LANES]], changes: Option<&[Change<S>]>) {
+        self.columns.squares.copy_from_slice(rows);
         self.whole = changes.is_none_or(|changes| {
-            self.before.copy_from_slice(&self.columns.squares);
+            self.before.copy_from_slice(rows);
             changes.iter().for_each(|change| self.before[change.place] = change.before);
             self.revives(changes)
         });
@@ -112,18 +117,23 @@ impl<S: Square> Repair<S> {
         }
     }
 
-    /// Finds the places that a foot may reach now, or did before.
-    fn mark_from(&mut self, towards: Towards, place: usize, known: impl Fn(usize) -> [S; LANES]) {
+    /// Finds the places that a foot reaches now, or did before.
+    fn mark_from(&mut self, towards: Towards, place: usize, known: &impl Fn(usize) -> [S; LANES]) {
         let (before, after) = (foot(&self.before, place, towards), self.columns.feet[place]);
         if before == after {
             return;
         }
-        let nearest = least(before, after);
+        let differs: [bool; LANES] = std::array::from_fn(|lane| before[lane] != after[lane]);
+        // What comes nearer has to be less than what was known, what goes away was the nearest where it was equal.
+        let nearest: [S; LANES] = std::array::from_fn(|lane| before[lane].min(after[lane].next()));
         let ways = &self.columns.ways;
         let reaches = |there: usize| {
             let (way, known) = (ways[place.abs_diff(there)], known(there));
-            let lane = |lane: usize| (before[lane] != after[lane]) & (nearest[lane].plus(way).min(S::FAR) <= known[lane]);
-            (0..LANES).fold(false, |any, of| any | lane(of))
+            let mut any = false;
+            for lane in 0..LANES {
+                any |= differs[lane] & (nearest[lane].plus(way).min(S::FAR) <= known[lane]);
+            }
+            any
         };
         let [first, last] = towards.from(place, self.stale.len() - 1);
         let from = self.spans.partition_point(|span| span[1] < place) * ANCHOR;
@@ -132,10 +142,12 @@ impl<S: Square> Repair<S> {
         for there in from..to {
             self.stale[there] = self.stale[there] || reaches(there);
         }
-        let below = (first..from.min(to)).rev().take_while(|there| reaches(*there));
-        below.for_each(|there| self.stale[there] = true);
-        let above = (to.max(from)..last + 1).take_while(|there| reaches(*there));
-        above.for_each(|there| self.stale[there] = true);
+        for there in (first..from).rev().take_while(|there| reaches(*there)) {
+            self.stale[there] = true;
+        }
+        for there in (to..=last).take_while(|there| reaches(*there)) {
+            self.stale[there] = true;
+        }
     }
 
     /// Looks at the places again that were found.

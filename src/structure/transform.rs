@@ -31,24 +31,28 @@ enum Squares {
     Boxes(Axes<u32>),
 }
 
-/// What is kept of the axes. Of two ways along an axis the second is as far on in lists as all of the first.
+/// What is kept of the axes. Of two ways along an axis, what is of the second is as far on in lists as there is of the first.
 struct Axes<S> {
     ways: &'static [Towards],
     weights: [u32; 3],
-    /// The largest square that has a byte.
-    most: Vec<S>,
-    /// Squares after the first axis, for each way along it; cells x fastest, then y.
-    first: Vec<Vec<S>>,
-    /// Squares after the second axis, for the ways along both; cells x fastest, then z.
-    second: Vec<Quadrant<S>>,
-    /// Of columns along the third axis, for the ways along all.
-    third: Vec<Vec<Bounds>>,
+    /// Squares after the first axis, for each way along it: of slabs of the same z, by groups of [`LANES`] along x, then y.
+    first: Vec<Vec<Row<S>>>,
+    /// After the second axis, for the ways along both: of planes of the same y, by groups along x, then z.
+    second: Vec<Vec<Row<S>>>,
+    /// After the third, for the ways along all; as after the second.
+    third: Vec<Vec<Row<S>>>,
+    /// Of the columns of `first` in the order of `second`, and of those of `second` in the order of `third`.
+    bounds: [Vec<Vec<Bounds>>; 2],
 }
 
-struct Quadrant<S> {
-    squares: Vec<S>,
-    /// Of columns along the second axis.
-    bounds: Vec<Bounds>,
+type Row<S> = [S; LANES];
+
+/// The squares of a row that are others now: its place along the axis to come, and its group.
+#[derive(Clone, Copy)]
+struct Found<S> {
+    place: usize,
+    group: usize,
+    row: Row<S>,
 }
 
 impl Transform {
@@ -62,11 +66,11 @@ impl Transform {
         let ways: &[Towards] = if octants { &Towards::WAYS } else { &[Towards::Either] };
         let octants = if octants { OCTANTS } else { 1 };
         let squares = match bytes_by_cells(grid) {
-            Some(bytes) => Squares::Cubes(Axes::new(grid, ways, [1; 3], |square| bytes[usize::from(square)]), bytes),
-            None => Squares::Boxes(Axes::new(grid, ways, grid.sides.to_array().map(weight), boxes_byte)),
+            Some(bytes) => Squares::Cubes(Axes::new(grid, ways, [1; 3]), bytes),
+            None => Squares::Boxes(Axes::new(grid, ways, grid.sides.to_array().map(weight))),
         };
-        let distances = DistanceField { grid: *grid, octants, bytes: vec![byte_of(false, FAR); octants * grid.count()] };
-        let mut made = Self { interesting, distances, squares };
+        let bytes = interesting.iter().flat_map(|flag| std::iter::repeat_n(byte_of(*flag, FAR), octants)).collect();
+        let mut made = Self { interesting, distances: DistanceField { grid: *grid, octants, bytes }, squares };
         made.transform(None);
         made
     }
@@ -82,10 +86,16 @@ impl Transform {
     /// Turns the flags of some cells: of each slab of the same z, in their order and numbered x fastest from its first.
     pub fn flip(&mut self, slabs: &[Vec<usize>]) {
         let [nx, ny, _] = self.distances.grid.cells;
+        let octants = self.distances.octants;
+        let bytes = self.distances.bytes.chunks_exact_mut(octants * nx * ny);
+        for ((flags, bytes), cells) in self.interesting.chunks_exact_mut(nx * ny).zip(bytes).zip(slabs) {
+            for cell in cells {
+                flags[*cell] = !flags[*cell];
+                // What was interesting had a square of 0; where that stays, it is next to one that is.
+                bytes[octants * cell..][..octants].fill(byte_of(flags[*cell], 0));
+            }
+        }
         let count: usize = slabs.iter().map(Vec::len).sum();
-        self.interesting.chunks_exact_mut(nx * ny).zip(slabs).for_each(|(flags, cells)| {
-            cells.iter().for_each(|cell| flags[*cell] = !flags[*cell]);
-        });
         if count > 0 {
             self.transform(Some(slabs).filter(|_| count < self.interesting.len() / MANY));
         }
@@ -98,16 +108,6 @@ impl Transform {
             Squares::Cubes(axes, of) => axes.update(flags, cells, distances, |square| of[usize::from(square)]),
             Squares::Boxes(axes) => axes.update(flags, cells, distances, boxes_byte),
         }
-        let [nx, ny, _] = distances.grid.cells;
-        let octants = distances.octants;
-        let slabs = distances.bytes.chunks_exact_mut(octants * nx * ny).zip(flags.chunks_exact(nx * ny));
-        for ((bytes, flags), cells) in slabs.zip(cells.unwrap_or_default()) {
-            for cell in cells {
-                let bytes = &mut bytes[octants * cell..][..octants];
-                // Whose square has stayed is next to one that is interesting, and so was it.
-                bytes.iter_mut().for_each(|byte| *byte = if flags[*cell] { 0 } else { byte_of(false, 0).max(*byte) });
-            }
-        }
     }
 }
 
@@ -115,32 +115,20 @@ fn boxes_byte(square: u32) -> u8 {
     byte_of(false, free_voxels(square))
 }
 
-/// Changes of rows, by the group of lanes.
-type Changes<S> = Vec<Vec<Change<S>>>;
-
-/// A slab of cells of the same z, and the rows of theirs after the second axis, for each way along it.
-struct Slab<'a, S> {
-    flags: &'a [bool],
-    cells: Option<&'a [usize]>,
-    squares: &'a mut [S],
-    after: Vec<(Vec<&'a mut [S]>, &'a mut [Bounds])>,
-}
-
 impl<S: Square> Axes<S> {
-    fn new(grid: &Grid, ways: &'static [Towards], weights: [u32; 3], byte: impl Fn(S) -> u8) -> Self {
+    fn new(grid: &Grid, ways: &'static [Towards], weights: [u32; 3]) -> Self {
         let [nx, ny, nz] = grid.cells;
-        let far = || vec![S::FAR; grid.count()];
         let groups = nx.div_ceil(LANES);
-        let bounds = |columns: usize, length: usize| vec![[0; 2]; columns * groups * anchors(length)];
         let number = ways.len();
-        let quadrant = || Quadrant { squares: far(), bounds: bounds(nz, ny) };
+        let lists = |axes: u32| (0..number.pow(axes)).map(|_| vec![[S::FAR; LANES]; groups * ny * nz]).collect();
+        let bounds = |axes: u32, count: usize| (0..number.pow(axes)).map(|_| vec![[0; 2]; groups * count]).collect();
         Self {
             ways,
             weights,
-            most: (0..=u8::MAX).map(|of| largest(|square: S| byte(square) <= of)).collect(),
-            first: (0..number).map(|_| far()).collect(),
-            second: (0..number * number).map(|_| quadrant()).collect(),
-            third: (0..number * number * number).map(|_| bounds(ny, nz)).collect(),
+            first: lists(1),
+            second: lists(2),
+            third: lists(3),
+            bounds: [bounds(2, nz * anchors(ny)), bounds(3, ny * anchors(nz))],
         }
     }
 
@@ -151,92 +139,88 @@ impl<S: Square> Axes<S> {
         distances: &mut DistanceField,
         byte: impl Fn(S) -> u8 + Sync,
     ) {
+        let [_, ny, _] = distances.grid.cells;
+        let quadrants = self.second.len();
+        let mut planes: Vec<Vec<Vec<Found<S>>>> = vec![vec![Vec::new(); quadrants]; ny];
         for x in 0..self.ways.len() {
-            let after = self.first_two(x, &distances.grid, flags, cells);
-            for (y, changes) in after.iter().enumerate() {
-                self.last(x + self.ways.len() * y, flags, cells.map(|_| &changes[..]), distances, &byte);
+            let slabs = self.first_two(x, &distances.grid, flags, cells);
+            for (z, found) in slabs.into_iter().enumerate() {
+                for (y_way, found) in found.into_iter().enumerate() {
+                    let quadrant = x + self.ways.len() * y_way;
+                    for found in found {
+                        planes[found.place][quadrant].push(Found { place: z, ..found });
+                    }
+                }
             }
         }
+        self.last(planes, cells.is_none(), distances, byte);
     }
 
-    /// The first two axes, for one way along the first: changes after the second by the place on it, for each way along that.
-    fn first_two(&mut self, x: usize, grid: &Grid, flags: &[bool], cells: Option<&[Vec<usize>]>) -> Vec<Vec<Changes<S>>> {
+    /// The first two axes, for one way along the first: what has changed in each slab, for each way along the second.
+    fn first_two(&mut self, x: usize, grid: &Grid, flags: &[bool], cells: Option<&[Vec<usize>]>) -> Vec<Vec<Vec<Found<S>>>> {
         let [nx, ny, nz] = grid.cells;
         let groups = nx.div_ceil(LANES);
         let (along_x, towards) = (&ways(nx, self.weights[0])[..], self.ways);
-        let slabs = self.first[x].chunks_exact_mut(nx * ny).zip(flags.chunks_exact(nx * ny)).enumerate();
-        let mut slabs: Vec<Slab<S>> = slabs
-            .map(|(z, (squares, flags))| Slab { flags, squares, cells: cells.map(|cells| &cells[z][..]), after: Vec::new() })
-            .collect();
-        for quadrant in self.second.iter_mut().skip(x).step_by(towards.len()) {
-            let rows = by_second_axis(&mut quadrant.squares, nx, nz);
-            let bounds = quadrant.bounds.chunks_exact_mut(groups * anchors(ny));
-            slabs.iter_mut().zip(rows).zip(bounds).for_each(|((slab, rows), bounds)| slab.after.push((rows, bounds)));
+        let weight = self.weights[1];
+        let after: Vec<&[Row<S>]> = self.second.iter().skip(x).step_by(towards.len()).map(|rows| &rows[..]).collect();
+        let mut bounds: Vec<Vec<&mut [Bounds]>> = (0..nz).map(|_| Vec::new()).collect();
+        for of in self.bounds[0].iter_mut().skip(x).step_by(towards.len()) {
+            let of = of.chunks_exact_mut(groups * anchors(ny));
+            bounds.iter_mut().zip(of).for_each(|(list, bounds)| list.push(bounds));
         }
-        let found: Vec<Vec<Vec<(usize, usize, Change<S>)>>> = slabs
-            .into_par_iter()
+        let slabs = self.first[x].par_chunks_exact_mut(groups * ny).zip(flags.par_chunks_exact(nx * ny)).zip(bounds);
+        slabs
             .enumerate()
             .map_init(
-                || Repair::new(ny, self.weights[1]),
-                |repair, (z, slab)| slab.update(repair, z, nx, along_x, towards[x], towards),
+                || Repair::new(ny, weight),
+                |repair, (z, ((rows, flags), mut bounds))| {
+                    let changes = first(rows, flags, nx, cells.map(|cells| &cells[z][..]), along_x, towards[x]);
+                    let known = |way: usize, group: usize, y: usize| after[way][(y * groups + group) * nz + z];
+                    next(repair, rows, changes.as_deref(), towards, &mut bounds, known)
+                },
             )
-            .collect();
-        let mut after: Vec<Vec<Changes<S>>> = towards.iter().map(|_| vec![vec![Vec::new(); groups]; ny]).collect();
-        for of_slab in found {
-            for (after, changes) in after.iter_mut().zip(of_slab) {
-                changes.into_iter().for_each(|(y, group, change)| after[y][group].push(change));
-            }
-        }
-        after
+            .collect()
     }
 
-    /// The third axis, of one quadrant, for both ways along it.
+    /// The third axis and the bytes, from what has changed in each plane of the same y, for the ways along the first two.
     fn last(
         &mut self,
-        quadrant: usize,
-        flags: &[bool],
-        changes: Option<&[Changes<S>]>,
+        planes: Vec<Vec<Vec<Found<S>>>>,
+        whole: bool,
         distances: &mut DistanceField,
         byte: impl Fn(S) -> u8 + Sync,
     ) {
         let [nx, ny, nz] = distances.grid.cells;
         let (octants, groups) = (distances.octants, nx.div_ceil(LANES));
-        let rows = by_second_axis(&mut distances.bytes, octants * nx, ny);
-        let squares = self.second[quadrant].squares.par_chunks_exact(nx * nz);
-        let (most, towards, weight) = (&self.most, self.ways, self.weights[2]);
-        let stride = towards.len() * towards.len();
-        let mut bounds: Vec<Vec<&mut [Bounds]>> = (0..ny).map(|_| Vec::new()).collect();
-        for third in self.third.iter_mut().skip(quadrant).step_by(stride) {
-            let of = third.chunks_exact_mut(groups * anchors(nz));
-            bounds.iter_mut().zip(of).for_each(|(list, bounds)| list.push(bounds));
-        }
-        let planes = rows.into_par_iter().zip(squares).zip(bounds).enumerate();
-        planes.for_each_init(
-            || Repair::new(nz, weight),
-            |repair, (y, ((mut rows, squares), mut bounds))| {
-                for group in 0..groups {
-                    let changes = changes.map(|changes| &changes[y][group][..]);
-                    if changes.is_some_and(<[_]>::is_empty) {
-                        continue;
+        let (ways, weight, quadrants) = (self.ways, self.weights[2], self.second.len());
+        let second = by_second_axis_of(&mut self.second, groups * nz, ny);
+        let third = by_second_axis_of(&mut self.third, groups * nz, ny);
+        let bounds = by_second_axis_of(&mut self.bounds[1], groups * anchors(nz), ny);
+        let bytes = by_second_axis(&mut distances.bytes, octants * nx, ny);
+        let kept = second.into_par_iter().zip(third).zip(bounds).zip(bytes);
+        planes.into_par_iter().zip(kept).for_each_init(
+            || (Repair::new(nz, weight), vec![Vec::new(); groups]),
+            |(repair, changes), (found, (((mut second, mut third), mut bounds), mut bytes))| {
+                for (quadrant, found) in found.into_iter().enumerate() {
+                    changes.iter_mut().for_each(Vec::clear);
+                    let rows = &mut second[quadrant];
+                    for Found { place, group, row } in found {
+                        let before = std::mem::replace(&mut rows[group * nz + place], row);
+                        changes[group].push(Change { place, before });
                     }
-                    let (begin, end) = (group * LANES, nx.min((group + 1) * LANES));
-                    repair.load(|z| &squares[z * nx..][begin..end], changes);
-                    for (way, bounds) in bounds.iter_mut().enumerate() {
-                        let octant = quadrant + stride * way;
-                        let bounds = &mut bounds[group * anchors(nz)..][..anchors(nz)];
-                        let known = |z: usize| {
-                            let bytes = &rows[z][octants * begin..octants * end];
-                            let mut known = [S::FAR; LANES];
-                            let of = bytes.iter().skip(octant).step_by(octants);
-                            known.iter_mut().zip(of).for_each(|(known, byte)| *known = most[usize::from(*byte)]);
-                            known
-                        };
-                        repair.transform(towards[way], bounds, changes, known);
-                        for z in (0..nz).filter(|z| repair.stale[*z]) {
-                            let flags = &flags[(z * ny + y) * nx..][begin..end];
-                            let bytes = rows[z][octants * begin..octants * end].iter_mut().skip(octant).step_by(octants);
-                            for ((out, flag), square) in bytes.zip(flags).zip(repair.columns.least[z]) {
-                                *out = if *flag { byte_of(true, 0) } else { byte(square) };
+                    let changes = Some(&changes[..]).filter(|_| !whole);
+                    let mut bounds: Vec<&mut [Bounds]> =
+                        bounds.iter_mut().skip(quadrant).step_by(quadrants).map(|bounds| &mut **bounds).collect();
+                    let known = |way: usize, group: usize, z: usize| third[quadrant + quadrants * way][group * nz + z];
+                    let found = next(repair, rows, changes, ways, &mut bounds, known);
+                    for (way, found) in found.into_iter().enumerate() {
+                        let octant = quadrant + quadrants * way;
+                        for Found { place, group, row } in found {
+                            third[octant][group * nz + place] = row;
+                            let bytes = bytes[place].chunks_exact_mut(octants).skip(group * LANES);
+                            for (bytes, square) in bytes.zip(row) {
+                                let kept = &mut bytes[octant];
+                                *kept = if *kept == byte_of(true, 0) { *kept } else { byte(square) };
                             }
                         }
                     }
@@ -246,83 +230,87 @@ impl<S: Square> Axes<S> {
     }
 }
 
-impl<S: Square> Slab<'_, S> {
-    /// Both axes in the slab: changes after the second for each way along it, with the place on it and the group of lanes.
-    fn update(
-        mut self,
-        repair: &mut Repair<S>,
-        z: usize,
-        nx: usize,
-        along_x: &[S],
-        towards: Towards,
-        ways: &[Towards],
-    ) -> Vec<Vec<(usize, usize, Change<S>)>> {
-        let groups = nx.div_ceil(LANES);
-        let changes = self.rows(nx, along_x, towards);
-        let mut found = vec![Vec::new(); ways.len()];
-        for group in 0..groups {
-            let changes = changes.as_ref().map(|changes| &changes[group][..]);
-            if changes.is_some_and(<[_]>::is_empty) {
-                continue;
+/// Lists by the place on the second axis, of which each has `length` elements in each list.
+fn by_second_axis_of<T>(lists: &mut [Vec<T>], length: usize, count: usize) -> Vec<Vec<&mut [T]>> {
+    let mut places: Vec<Vec<&mut [T]>> = (0..count).map(|_| Vec::new()).collect();
+    for list in lists {
+        places.iter_mut().zip(list.chunks_exact_mut(length)).for_each(|(place, part)| place.push(part));
+    }
+    places
+}
+
+/// The first axis in a slab: which rows have changed by groups of lanes; none where all may have.
+fn first<S: Square>(
+    rows: &mut [Row<S>],
+    flags: &[bool],
+    nx: usize,
+    cells: Option<&[usize]>,
+    along_x: &[S],
+    towards: Towards,
+) -> Option<Vec<Vec<Change<S>>>> {
+    let ny = flags.len() / nx;
+    let mut squares = vec![S::FAR; nx.next_multiple_of(LANES)];
+    let Some(cells) = cells else {
+        for (y, flags) in flags.chunks_exact(nx).enumerate() {
+            first_axis(along_x, towards, flags, &mut squares[..nx]);
+            for (row, of) in rows.iter_mut().skip(y).step_by(ny).zip(squares.as_chunks().0) {
+                *row = *of;
             }
-            let (begin, end) = (group * LANES, nx.min((group + 1) * LANES));
-            let squares = &self.squares;
-            repair.load(|y| &squares[y * nx..][begin..end], changes);
-            for ((towards, (rows, bounds)), found) in ways.iter().zip(&mut self.after).zip(&mut found) {
-                let anchors = bounds.len() / groups;
-                let known = |y: usize| lanes(&rows[y][begin..end]);
-                repair.transform(*towards, &mut bounds[group * anchors..][..anchors], changes, known);
-                for (y, row) in rows.iter_mut().enumerate().filter(|(y, _)| repair.stale[*y]) {
-                    let row = &mut row[begin..end];
-                    let least = &repair.columns.least[y][..row.len()];
-                    if changes.is_some() && row != least {
-                        found.push((y, group, Change { place: z, before: lanes(row) }));
-                    }
-                    row.copy_from_slice(least);
+        }
+        return None;
+    };
+    let mut changes = vec![Vec::new(); nx.div_ceil(LANES)];
+    for of_row in cells.chunk_by(|a, b| a / nx == b / nx) {
+        let y = of_row[0] / nx;
+        let flags = &flags[y * nx..][..nx];
+        // Only up to the flags beside those that have changed.
+        let [begin, last] = [of_row[0], of_row[of_row.len() - 1]].map(|cell| cell % nx);
+        let begin = flags[..begin].iter().rposition(|flag| *flag).unwrap_or(0);
+        let end = flags[last + 1..].iter().position(|flag| *flag).map_or(nx, |after| last + 1 + after + 1);
+        let groups = begin / LANES..end.div_ceil(LANES);
+        let (parts, _) = squares.as_chunks_mut();
+        groups.clone().for_each(|group| parts[group] = rows[group * ny + y]);
+        first_axis(along_x, towards, &flags[begin..end], &mut squares[begin..end]);
+        let (parts, _) = squares.as_chunks();
+        for group in groups {
+            let row = &mut rows[group * ny + y];
+            if *row != parts[group] {
+                changes[group].push(Change { place: y, before: *row });
+                *row = parts[group];
+            }
+        }
+    }
+    Some(changes)
+}
+
+/// The next axis in a sheet of rows: what has changed after it, for each way along it. `known` has rows as they were by the way,
+/// the group and the place.
+fn next<S: Square>(
+    repair: &mut Repair<S>,
+    rows: &[Row<S>],
+    changes: Option<&[Vec<Change<S>>]>,
+    ways: &[Towards],
+    bounds: &mut [&mut [Bounds]],
+    known: impl Fn(usize, usize, usize) -> Row<S>,
+) -> Vec<Vec<Found<S>>> {
+    let length = repair.stale.len();
+    let mut found: Vec<Vec<Found<S>>> = ways.iter().map(|_| Vec::new()).collect();
+    for (group, rows) in rows.chunks_exact(length).enumerate() {
+        let changes = changes.map(|changes| &changes[group][..]);
+        if changes.is_some_and(<[_]>::is_empty) {
+            continue;
+        }
+        repair.load(rows, changes);
+        for (way, (bounds, found)) in bounds.iter_mut().zip(&mut found).enumerate() {
+            let bounds = &mut bounds[group * anchors(length)..][..anchors(length)];
+            repair.transform(ways[way], bounds, changes, |place| known(way, group, place));
+            for place in (0..length).filter(|place| repair.stale[*place]) {
+                let row = repair.columns.least[place];
+                if known(way, group, place) != row {
+                    found.push(Found { place, group, row });
                 }
             }
         }
-        found
     }
-
-    /// The first axis: which rows have changed by groups of lanes; none where all may have.
-    fn rows(&mut self, nx: usize, along_x: &[S], towards: Towards) -> Option<Changes<S>> {
-        let Some(cells) = self.cells else {
-            for (squares, flags) in self.squares.chunks_exact_mut(nx).zip(self.flags.chunks_exact(nx)) {
-                first_axis(along_x, towards, flags, squares);
-            }
-            return None;
-        };
-        let mut changes = vec![Vec::new(); nx.div_ceil(LANES)];
-        let mut row = vec![S::FAR; nx];
-        for of_row in cells.chunk_by(|a, b| a / nx == b / nx) {
-            let y = of_row[0] / nx;
-            first_axis(along_x, towards, &self.flags[y * nx..][..nx], &mut row);
-            let groups = row.chunks(LANES).zip(self.squares[y * nx..][..nx].chunks_mut(LANES));
-            for ((new, old), changes) in groups.zip(&mut changes).filter(|((new, old), _)| new != old) {
-                changes.push(Change { place: y, before: lanes(old) });
-                old.copy_from_slice(new);
-            }
-        }
-        Some(changes)
-    }
-}
-
-/// A row of [`LANES`] or fewer, far where there is none.
-fn lanes<S: Square>(row: &[S]) -> [S; LANES] {
-    row.try_into().unwrap_or_else(|_| {
-        let mut lanes = [S::FAR; LANES];
-        lanes[..row.len()].copy_from_slice(row);
-        lanes
-    })
-}
-
-/// The largest square of which something holds that holds of all smaller ones; the least where it holds of none.
-fn largest<S: Square>(holds: impl Fn(S) -> bool) -> S {
-    let (mut holding, mut beyond) = (0, S::FAR.place() + 1);
-    while beyond - holding > 1 {
-        let middle = holding.midpoint(beyond);
-        if holds(S::of_place(middle)) { holding = middle } else { beyond = middle }
-    }
-    S::of_place(holding)
+    found
 }
