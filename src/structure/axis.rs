@@ -199,7 +199,7 @@ impl<S: Square> Columns<S> {
             return;
         };
         let mut nearest = [S::FAR; LANES];
-        self.feet.iter().for_each(|row| nearest = least(nearest, *row));
+        self.feet.iter().for_each(|row| nearest = least(nearest, row));
         let anchors = self.bounds.len();
         self.halve([0, anchors], [first, last], towards, &nearest);
         for anchor in 0..anchors {
@@ -281,13 +281,14 @@ impl<S: Square> Columns<S> {
 
 /// The squares of a place, or those of the neighbour that rays go away from where these are less: ways are counted between
 /// boxes.
+#[inline]
 pub(super) fn foot<S: Square>(squares: &[[S; LANES]], place: usize, towards: Towards) -> [S; LANES] {
     let mut foot = squares[place];
     if towards != Towards::Down && place + 1 < squares.len() {
-        foot = least(foot, squares[place + 1]);
+        foot = least(foot, &squares[place + 1]);
     }
     if towards != Towards::Up && place > 0 {
-        foot = least(foot, squares[place - 1]);
+        foot = least(foot, &squares[place - 1]);
     }
     foot
 }
@@ -302,6 +303,10 @@ fn take<S: Square>(squares: &mut [S; LANES], row: &[S]) {
     }
 }
 
-pub(super) fn least<S: Square>(a: [S; LANES], b: [S; LANES]) -> [S; LANES] {
-    std::array::from_fn(|lane| a[lane].min(b[lane]))
+#[inline]
+pub(super) fn least<S: Square>(mut a: [S; LANES], b: &[S; LANES]) -> [S; LANES] {
+    for lane in 0..LANES {
+        a[lane] = a[lane].min(b[lane]);
+    }
+    a
 }

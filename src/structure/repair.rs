@@ -19,6 +19,23 @@ pub(super) struct Change<S> {
     pub before: [S; LANES],
 }
 
+/// What was known of some columns, among rows of others.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a, S> {
+    pub rows: &'a [[S; LANES]],
+    /// Where the first place is.
+    pub begin: usize,
+    /// From there to the next one.
+    pub stride: usize,
+}
+
+impl<'a, S> Known<'a, S> {
+    #[inline]
+    pub fn row(&self, place: usize) -> &'a [S; LANES] {
+        &self.rows[self.begin + place * self.stride]
+    }
+}
+
 /// What the nearest places of an anchor are between, in all lanes.
 pub(super) type Bounds = [u32; 2];
 
@@ -78,7 +95,7 @@ impl<S: Square> Repair<S> {
         towards: Towards,
         bounds: &mut [Bounds],
         changes: Option<&[Change<S>]>,
-        known: impl Fn(usize) -> [S; LANES],
+        known: &Known<S>,
     ) {
         if let Some(changes) = changes.filter(|_| !self.whole) {
             for (of, bounds) in self.columns.bounds.iter_mut().zip(&*bounds) {
@@ -97,7 +114,7 @@ impl<S: Square> Repair<S> {
     }
 
     /// Finds the places that changes may reach.
-    fn mark(&mut self, towards: Towards, changes: &[Change<S>], known: impl Fn(usize) -> [S; LANES]) {
+    fn mark(&mut self, towards: Towards, changes: &[Change<S>], known: &Known<S>) {
         self.stale.fill(false);
         let last = self.stale.len().saturating_sub(1);
         for anchor in 0..self.spans.len() {
@@ -112,23 +129,26 @@ impl<S: Square> Repair<S> {
         let mut done = 0;
         for change in changes {
             let [begin, end] = towards.feet(change.place, last);
-            (begin.max(done)..=end).for_each(|place| self.mark_from(towards, place, &known));
+            (begin.max(done)..=end).for_each(|place| self.mark_from(towards, place, known));
             done = end + 1;
         }
     }
 
     /// Finds the places that a foot reaches now, or did before.
-    fn mark_from(&mut self, towards: Towards, place: usize, known: &impl Fn(usize) -> [S; LANES]) {
+    fn mark_from(&mut self, towards: Towards, place: usize, known: &Known<S>) {
         let (before, after) = (foot(&self.before, place, towards), self.columns.feet[place]);
         if before == after {
             return;
         }
-        let differs: [bool; LANES] = std::array::from_fn(|lane| before[lane] != after[lane]);
-        // What comes nearer has to be less than what was known, what goes away was the nearest where it was equal.
-        let nearest: [S; LANES] = std::array::from_fn(|lane| before[lane].min(after[lane].next()));
+        // What comes nearer has to be less than what was known; what goes away was the nearest where it was equal.
+        let (mut differs, mut nearest) = ([false; LANES], before);
+        for lane in 0..LANES {
+            differs[lane] = before[lane] != after[lane];
+            nearest[lane] = before[lane].min(after[lane].next());
+        }
         let ways = &self.columns.ways;
         let reaches = |there: usize| {
-            let (way, known) = (ways[place.abs_diff(there)], known(there));
+            let (way, known) = (ways[place.abs_diff(there)], known.row(there));
             let mut any = false;
             for lane in 0..LANES {
                 any |= differs[lane] & (nearest[lane].plus(way).min(S::FAR) <= known[lane]);
@@ -140,7 +160,8 @@ impl<S: Square> Repair<S> {
         let to = self.spans.partition_point(|span| span[0] <= place) * ANCHOR;
         let (from, to) = (from.clamp(first, last + 1), to.clamp(first, last + 1));
         for there in from..to {
-            self.stale[there] = self.stale[there] || reaches(there);
+            // Without a branch, so that rows are waited for side by side.
+            self.stale[there] |= reaches(there);
         }
         for there in (first..from).rev().take_while(|there| reaches(*there)) {
             self.stale[there] = true;
@@ -160,7 +181,7 @@ impl<S: Square> Repair<S> {
                 let columns = &mut self.columns;
                 let from = anchor.checked_sub(1).map_or(0, |before| columns.bounds[before][0]);
                 let to = columns.bounds.get(anchor + run).map_or(last, |bounds| bounds[1]).max(from);
-                let nearest = columns.feet[from..=to].iter().fold([S::FAR; LANES], |nearest, row| least(nearest, *row));
+                let nearest = columns.feet[from..=to].iter().fold([S::FAR; LANES], least);
                 columns.halve([anchor, anchor + run], [from, to], towards, &nearest);
             }
             anchor += run + 1;

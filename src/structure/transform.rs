@@ -11,11 +11,14 @@ use rayon::prelude::*;
 use super::axis::{LANES, Square, Towards, first_axis, ways};
 use super::distance::by_second_axis;
 use super::grid::{DistanceField, FAR, Grid, OCTANTS, byte_of};
-use super::repair::{Bounds, Change, Repair, anchors};
+use super::repair::{Bounds, Change, Known, Repair, anchors};
 use super::square::{bytes_by_cells, free_voxels, weight};
 
 /// One in so many cells: where more change, everything is transformed anew, which then costs less.
 const MANY: usize = 16;
+
+/// Bytes that come from memory at a time.
+const LINE: usize = 64;
 
 /// Distances of all cells, with what an update of them needs.
 pub struct Transform {
@@ -88,7 +91,8 @@ impl Transform {
         let [nx, ny, _] = self.distances.grid.cells;
         let octants = self.distances.octants;
         let bytes = self.distances.bytes.chunks_exact_mut(octants * nx * ny);
-        for ((flags, bytes), cells) in self.interesting.chunks_exact_mut(nx * ny).zip(bytes).zip(slabs) {
+        let flags = self.interesting.chunks_exact_mut(nx * ny);
+        for ((flags, bytes), cells) in flags.zip(bytes).zip(slabs) {
             for cell in cells {
                 flags[*cell] = !flags[*cell];
                 // What was interesting had a square of 0; where that stays, it is next to one that is.
@@ -175,7 +179,7 @@ impl<S: Square> Axes<S> {
                 || Repair::new(ny, weight),
                 |repair, (z, ((rows, flags), mut bounds))| {
                     let changes = first(rows, flags, nx, cells.map(|cells| &cells[z][..]), along_x, towards[x]);
-                    let known = |way: usize, group: usize, y: usize| after[way][(y * groups + group) * nz + z];
+                    let known = |way: usize, group: usize| Known { rows: after[way], begin: group * nz + z, stride: groups * nz };
                     next(repair, rows, changes.as_deref(), towards, &mut bounds, known)
                 },
             )
@@ -211,16 +215,21 @@ impl<S: Square> Axes<S> {
                     let changes = Some(&changes[..]).filter(|_| !whole);
                     let mut bounds: Vec<&mut [Bounds]> =
                         bounds.iter_mut().skip(quadrant).step_by(quadrants).map(|bounds| &mut **bounds).collect();
-                    let known = |way: usize, group: usize, z: usize| third[quadrant + quadrants * way][group * nz + z];
+                    let known = |way: usize, group: usize| Known { rows: third[quadrant + quadrants * way], begin: group * nz, stride: 1 };
                     let found = next(repair, rows, changes, ways, &mut bounds, known);
                     for (way, found) in found.into_iter().enumerate() {
                         let octant = quadrant + quadrants * way;
+                        // Rows of bytes lie far apart: asked for before the first is needed, they come side by side.
+                        for Found { place, group, .. } in &found {
+                            let row = bytes[*place][octants * LANES * group..].iter();
+                            row.take(octants * LANES).step_by(LINE).for_each(|byte| _ = std::hint::black_box(*byte));
+                        }
                         for Found { place, group, row } in found {
                             third[octant][group * nz + place] = row;
                             let bytes = bytes[place].chunks_exact_mut(octants).skip(group * LANES);
-                            for (bytes, square) in bytes.zip(row) {
-                                let kept = &mut bytes[octant];
-                                *kept = if *kept == byte_of(true, 0) { *kept } else { byte(square) };
+                            for (bytes, square) in bytes.zip(&row) {
+                                // Those of interesting cells stay 0; without a branch.
+                                bytes[octant] = byte(*square) * u8::from(bytes[octant] > 0);
                             }
                         }
                     }
@@ -285,13 +294,13 @@ fn first<S: Square>(
 
 /// The next axis in a sheet of rows: what has changed after it, for each way along it. `known` has rows as they were by the way,
 /// the group and the place.
-fn next<S: Square>(
+fn next<'a, S: Square>(
     repair: &mut Repair<S>,
     rows: &[Row<S>],
     changes: Option<&[Vec<Change<S>>]>,
     ways: &[Towards],
     bounds: &mut [&mut [Bounds]],
-    known: impl Fn(usize, usize, usize) -> Row<S>,
+    known: impl Fn(usize, usize) -> Known<'a, S>,
 ) -> Vec<Vec<Found<S>>> {
     let length = repair.stale.len();
     let mut found: Vec<Vec<Found<S>>> = ways.iter().map(|_| Vec::new()).collect();
@@ -303,11 +312,12 @@ fn next<S: Square>(
         repair.load(rows, changes);
         for (way, (bounds, found)) in bounds.iter_mut().zip(&mut found).enumerate() {
             let bounds = &mut bounds[group * anchors(length)..][..anchors(length)];
-            repair.transform(ways[way], bounds, changes, |place| known(way, group, place));
+            let known = known(way, group);
+            repair.transform(ways[way], bounds, changes, &known);
             for place in (0..length).filter(|place| repair.stale[*place]) {
-                let row = repair.columns.least[place];
-                if known(way, group, place) != row {
-                    found.push(Found { place, group, row });
+                let row = &repair.columns.least[place];
+                if known.row(place) != row {
+                    found.push(Found { place, group, row: *row });
                 }
             }
         }
