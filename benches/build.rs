@@ -1,16 +1,21 @@
 //! How long distance structures take to build: compute shaders beside the host, in CPU time of the process on a CPU
-//! device, else device time. Median of several builds with warm pipelines; builders take turns.
+//! device, else device time. Median of several builds with warm pipelines; builders take turns. Then what the host takes to
+//! update its distances when the transfer function moves, beside a build of the same run.
 //!
 //! `cargo bench --bench build [-- CELL,...]`: cells of 1 and 4 voxels by default. Without `../shared/data` it runs on
 //! a built-in volume.
 
 use std::path::Path;
 
+use cpu_time::ProcessTime;
 use depthleap::frame::{Resident, Structures};
 use depthleap::method;
 use depthleap::plan::plan;
-use depthleap::scene::Settings;
+use depthleap::resource::texels::Texels;
 use depthleap::scene::settings::MethodName;
+use depthleap::scene::{Scene, Settings};
+use depthleap::structure::update::Updatable;
+use depthleap::structure::{self, Lookup};
 use depthleap::vulkan::{Device, Instance, pick};
 use depthleap::{Error, Result, read};
 
@@ -59,10 +64,52 @@ fn main() -> Result<()> {
                     method.name(),
                     whole / omni,
                 );
+                if lookup.view.is_none() {
+                    follow(&scene, &lookup, &format!("{name:<10} cell {cell}  {:<15}", method.name()));
+                }
             }
         }
     }
     Ok(())
+}
+
+/// One code of 8 bits, in x.
+const CODE: f64 = 1.0 / 255.0;
+/// So little of it that no voxel of 8 bits shows that did not before.
+const PART_OF_CODE: f64 = 0.1 * CODE;
+
+/// How long the host takes to follow a transfer function that moves there and back.
+fn follow(scene: &Scene, lookup: &Lookup, name: &str) {
+    let texels = Texels::of(scene);
+    let shown = |by: f64| {
+        let mut moved = scene.clone();
+        moved.transfer = scene.transfer.mapped(|x| x + by);
+        texels.shown(&moved)
+    };
+    let build = || drop(std::hint::black_box(structure::build(&scene.field, &texels.values, &shown(0.0), lookup)));
+    let Some(mut kept) = Updatable::new(&scene.field, &texels.values, &shown(0.0), lookup) else { return };
+    let mut times: [Vec<f64>; 3] = Default::default();
+    for _ in 0..RUNS {
+        times[0].push(cpu_ms(build));
+        for (by, times) in [CODE, PART_OF_CODE].into_iter().zip(&mut times[1..]) {
+            for shown in [shown(by), shown(0.0)] {
+                times.push(cpu_ms(|| kept.update(&scene.field, &texels.values, &shown)));
+            }
+        }
+    }
+    let [build, code, part] = times.map(median);
+    println!(
+        "{name} transfer function moved by one code: {code:>5.1} ms of a build's {build:>5.1} on the host ({:.2}), \
+         so that no cell changes: {part:.2} ms",
+        code / build,
+    );
+}
+
+/// CPU time of the process, milliseconds.
+fn cpu_ms(run: impl FnOnce()) -> f64 {
+    let begin = ProcessTime::now();
+    run();
+    begin.elapsed().as_secs_f64() * 1e3
 }
 
 fn median(mut times: Vec<f64>) -> f64 {

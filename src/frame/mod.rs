@@ -5,6 +5,7 @@ pub mod build;
 pub mod choice;
 pub mod compile;
 pub mod cpu;
+mod following;
 pub mod gpu;
 mod object;
 mod pipelines;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use cpu_time::ProcessTime;
 
 use super::build::{self, Bindable, Job};
+use super::following::Following;
 use super::object::{self, DeviceObject};
 use super::pipelines::Pipelines;
 use super::upload;
@@ -33,6 +34,8 @@ pub struct Resident {
     table: Option<Arc<PreintegratedTable>>,
     /// The importance volume of adaptive sampling that is here.
     importance: Option<Arc<Importance>>,
+    /// Distances of the host that follow the transfer function.
+    following: Following,
 }
 
 /// An asset that is there.
@@ -61,7 +64,14 @@ impl Resident {
             pipelines: Pipelines::new(device),
             table: None,
             importance: None,
+            following: Following::default(),
         }
+    }
+
+    /// From now on, distances that the host builds are kept with what it takes to update them, which are those of one look-up at
+    /// a time: after [`Resident::forget_transfer`] they cost what the new transfer function changes.
+    pub fn follow_transfer(&mut self) {
+        self.following.ask();
     }
 
     /// What a plan's steps mean by a resource.
@@ -142,6 +152,7 @@ impl Resident {
     /// Forgets the scene; pipelines stay, which the next one may draw with too.
     pub fn forget_scene(&mut self) {
         (self.table, self.importance) = (None, None);
+        self.following.forget();
         self.kept.clear();
     }
 
@@ -217,9 +228,13 @@ impl Resident {
             self.importance = Importance::of(facts.scene).map(Arc::new);
         }
         let facts = Facts { table: table.as_deref(), importance: self.importance.as_deref(), ..*facts };
-        let bytes: Cow<[u8]> = match (&resource.of.origin, recipe(resource).and_then(|recipe| recipe.host)) {
-            (Origin::Host(bytes), _) => bytes(&facts),
-            (_, Some(build)) => build(&facts, resource.index).into(),
+        let lookup = facts.lookup.filter(|_| resource == resource::NEAREST_DISTANCE);
+        let following = lookup.and_then(|lookup| self.following.distances(facts.scene, &lookup));
+        let recipe = recipe(resource).and_then(|recipe| recipe.host);
+        let bytes: Cow<[u8]> = match (&resource.of.origin, following, recipe) {
+            (_, Some(bytes), _) => bytes.into(),
+            (Origin::Host(bytes), ..) => bytes(&facts),
+            (.., Some(build)) => build(&facts, resource.index).into(),
             _ => {
                 let problem = format!("nobody makes {}", resource.name());
                 return Err(Error::device(&self.device.info.name, problem, "please report this"));

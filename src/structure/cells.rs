@@ -119,7 +119,17 @@ pub enum Values<'a> {
 /// at the value of any of its voxels. Holes are not interesting; larger cells that have some count as what those were
 /// filled with. `shown` is said of the texture's values.
 pub fn interesting(field: &Field, values: &Values, shown: &Shown, grid: &Grid, nearest: bool) -> Vec<bool> {
-    let support = &Support::of(shown);
+    interesting_where(field, values, &Support::of(shown), grid, nearest)
+}
+
+/// The same by where anything shows.
+pub(super) fn interesting_where(
+    field: &Field,
+    values: &Values,
+    support: &Support,
+    grid: &Grid,
+    nearest: bool,
+) -> Vec<bool> {
     match (values, nearest) {
         (Values::Unorm8(codes), false) => of_values(field, codes, unorm8, support, grid),
         (Values::Unorm16(codes), false) => of_values(field, codes, unorm16, support, grid),
@@ -130,7 +140,7 @@ pub fn interesting(field: &Field, values: &Values, shown: &Shown, grid: &Grid, n
     }
 }
 
-fn unorm8(code: u8) -> f32 {
+pub(super) fn unorm8(code: u8) -> f32 {
     f32::from(code) / 255.0
 }
 
@@ -225,16 +235,16 @@ fn of_values<T: Copy + PartialOrd + Send + Sync>(
 }
 
 /// The lesser and the greater. Plain comparisons: values are finite, and what `f32::min` does about NaN would cost time.
-fn least<T: PartialOrd>(a: T, b: T) -> T {
+pub(super) fn least<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
-fn most<T: PartialOrd>(a: T, b: T) -> T {
+pub(super) fn most<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
 /// Minimum and maximum of four rows, place by place.
-fn extremes<T: Copy + PartialOrd>(rows: [&[T]; 4], low: &mut [T], high: &mut [T]) {
+pub(super) fn extremes<T: Copy + PartialOrd>(rows: [&[T]; 4], low: &mut [T], high: &mut [T]) {
     let n = low.len();
     let [a, b, c, d] = rows.map(|row| &row[..n]);
     let high = &mut high[..n];

@@ -1,9 +1,11 @@
 //! Structures that are built of a volume: those that tell where it holds nothing to see, and gradients.
 
+mod axes;
 pub mod axis;
 pub mod blocks;
 pub mod bundle;
 pub mod cells;
+mod changes;
 pub mod content;
 pub mod distance;
 pub mod gradients;

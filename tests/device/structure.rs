@@ -13,7 +13,8 @@ use depthleap::resource::texels::Texels;
 use depthleap::scene::field::NanPolicy;
 use depthleap::scene::gradients::GradientCoding;
 use depthleap::scene::settings::{
-    CELLS, Filter, GradientOperator, GradientTexture, Gradients, MethodName, Settings, ShadingSettings, VolumeTexture,
+    Builder, CELLS, Filter, GradientOperator, GradientTexture, Gradients, MethodName, Settings, ShadingSettings,
+    VolumeTexture,
 };
 use depthleap::scene::volume::Voxels;
 use depthleap::scene::{Field, Scene, TransferFunction, Volume};
@@ -74,6 +75,7 @@ pub fn tests() -> Vec<Test> {
         tests.push(test(&format!("device_and_host_agree::gradients::{operator:?}").to_lowercase(), run));
     }
     tests.push(test("another_transfer_function_keeps_the_ranges", another_transfer_function_keeps_the_ranges));
+    tests.push(test("distances_of_the_host_follow_the_transfer_function", distances_of_the_host_follow));
     tests.into_iter().map(|test| test.within("structure")).collect()
 }
 
@@ -196,4 +198,26 @@ fn another_transfer_function_keeps_the_ranges(device: &Arc<Device>) {
     }
     assert_eq!(found[0], found[2]);
     assert_ne!(found[0], found[1]);
+}
+
+/// What the host updates is what it builds anew, for one look-up after another.
+fn distances_of_the_host_follow(device: &Arc<Device>) {
+    let mut resident = Resident::new(device);
+    resident.follow_transfer();
+    for method in [method::NN_OMNI.name(), method::NN_DIRECTIONAL.name(), method::NN_OMNI.name()] {
+        let mut scene = by(&built_in("shells:48", "ramp", |s| s.method.build = Builder::Host), method);
+        let plan = plan(&scene, method::papers_form(method)).expect("a plan");
+        let lookup = plan.distance.expect("distances");
+        let ramp = scene.transfer.clone();
+        for by in [0.0, 1.0 / 255.0, 0.2, 0.0, 0.0] {
+            scene.transfer = ramp.mapped(|x| x + by);
+            resident.forget_transfer();
+            resident.prepare(&scene, &plan).expect("room on the device");
+            let found = resident.read_distances(&lookup).expect("a copy").expect("distances");
+            let mut host = Structures::default();
+            host.prepare(&scene, &plan);
+            let expected = &host.distance(&lookup).expect("distances were built").value.bytes;
+            assert!(found == *expected, "{}, moved by {by}", method.name());
+        }
+    }
 }
