@@ -79,6 +79,27 @@ fn random_cells_come_and_go() {
 }
 
 #[test]
+fn few_cells_of_long_columns_come_and_go() {
+    // So few that columns are updated place by place.
+    let mut random = Random(14);
+    for round in 0..60 {
+        let cells = [[20, 150, 4], [17, 5, 160], [33, 70, 80], [5, 400, 3]][round % 4];
+        let count: usize = cells.iter().product();
+        let density = [0.0005, 0.01, 0.3, 0.95][random.below(4)];
+        let mut flags: Vec<bool> = (0..count).map(|_| random.next() < density).collect();
+        let mut kept = kept(cells, SIDES[random.below(SIDES.len())], &flags);
+        for _ in 0..8 {
+            let near = random.below(count);
+            for _ in 0..1 + random.below(4) {
+                let cell = (near + random.below(4)).min(count - 1);
+                flags[cell] = !flags[cell];
+            }
+            assert_follows(&mut kept, &flags);
+        }
+    }
+}
+
+#[test]
 fn surfaces_grow_and_shrink() {
     // Smooth bodies, near to and far from each other, whose outermost cells change: what a transfer function does.
     let cells = [70, 61, 66];

@@ -102,7 +102,14 @@ impl<S: Square> Axes<S> {
             .map_init(
                 || Repair::new(ny, weight),
                 |repair, (z, ((rows, flags), mut bounds))| {
-                    let changes = first(rows, flags, nx, cells.map(|cells| &cells[z][..]), along_x, towards[x]);
+                    let changes = first(
+                        rows,
+                        flags,
+                        nx,
+                        cells.map(|cells| cells.get(z).map_or(&[][..], Vec::as_slice)),
+                        along_x,
+                        towards[x],
+                    );
                     let known = |way: usize, group: usize| Known {
                         rows: after[way],
                         begin: group * nz + z,

@@ -44,6 +44,9 @@ pub(super) fn anchors(length: usize) -> usize {
     length.div_ceil(ANCHOR)
 }
 
+/// One in so many rows: where more have changed, all are transformed anew, which then costs less.
+const MANY: usize = 8;
+
 /// Columns that are transformed anew in part.
 pub(super) struct Repair<S> {
     pub columns: Columns<S>,
@@ -75,7 +78,7 @@ impl<S: Square> Repair<S> {
         self.whole = changes.is_none_or(|changes| {
             self.before.copy_from_slice(rows);
             changes.iter().for_each(|change| self.before[change.place] = change.before);
-            self.revives(changes)
+            MANY * changes.len() > rows.len() || self.revives(changes)
         });
     }
 

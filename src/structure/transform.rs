@@ -9,9 +9,6 @@ use super::axis::Towards;
 use super::grid::{DistanceField, FAR, Grid, OCTANTS, byte_of};
 use super::square::{bytes_by_cells, free_voxels, weight};
 
-/// One in so many cells: where more change, everything is transformed anew, which then costs less.
-const MANY: usize = 16;
-
 /// Distances of all cells, with what an update of them needs.
 pub struct Transform {
     interesting: Vec<bool>,
@@ -55,6 +52,9 @@ impl Transform {
     }
 
     /// Turns the flags of some cells: of each slab of the same z, in their order and numbered x fastest from its first.
+    ///
+    /// # Panics
+    /// When a cell is not in its slab.
     pub fn flip(&mut self, slabs: &[Vec<usize>]) {
         let [nx, ny, _] = self.distances.grid.cells;
         let octants = self.distances.octants;
@@ -67,9 +67,8 @@ impl Transform {
                 bytes[octants * cell..][..octants].fill(byte_of(flags[*cell], 0));
             }
         }
-        let count: usize = slabs.iter().map(Vec::len).sum();
-        if count > 0 {
-            self.transform(Some(slabs).filter(|_| count < self.interesting.len() / MANY));
+        if slabs.iter().any(|cells| !cells.is_empty()) {
+            self.transform(Some(slabs));
         }
     }
 
