@@ -21,6 +21,9 @@ const STEPS: [f64; 18] =
 /// No error falls faster than with the square of the step; by so much more it may.
 const FASTER: f64 = 1.5;
 
+/// The part of what one step was missed by that the next one is taken to be missed by: it is a matter of chance.
+const HOPE: f64 = 0.7;
+
 /// The part of the largest error that rays may bring which end early.
 const OF_ENDS: f64 = 0.25;
 
@@ -146,7 +149,7 @@ impl Looks {
     /// have them. Those that cannot meet it, by what the ones before them are off by, are left out.
     fn longest(&mut self, ways: Vec<SamplingSettings>) -> Option<(SamplingSettings, f64)> {
         let mut longest = f64::INFINITY;
-        // How many times the error of the picture that is sought with that of the one it is held against has been.
+        // How many times the error of the picture that is sought with that of the one it is held against has been, where that missed the bound.
         let mut larger = 0.0f64;
         for sampling in ways {
             if sampling.step > longest {
@@ -159,12 +162,15 @@ impl Looks {
                     return None;
                 }
             };
-            let safety = SEARCHED.safety(self.norm).max(larger * CONFIRMED.safety(self.norm));
+            let safety = SEARCHED.safety(self.norm).max(HOPE * larger * CONFIRMED.safety(self.norm));
             let mut over = safety * error / self.bound;
             if over <= 1.0 {
                 let found = self.confirm.error(&sampling, self.norm).ok()?;
-                larger = larger.max(found / error.max(f64::MIN_POSITIVE));
-                (error, over) = (found, CONFIRMED.safety(self.norm) * found / self.bound);
+                over = CONFIRMED.safety(self.norm) * found / self.bound;
+                if over > 1.0 {
+                    larger = larger.max(found / error.max(f64::MIN_POSITIVE));
+                }
+                error = found;
             }
             let SamplingSettings { classification, step, termination, .. } = sampling;
             self.tried.push(Tried { classification, step, termination, error });

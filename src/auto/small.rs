@@ -65,11 +65,13 @@ impl SmallLook {
         let mut drawn = scene.clone();
         drawn.settings.sampling.error = None;
         (drawn.settings.method.name, drawn.settings.method.cell) = (SINGLE_PASS_OMNI.name(), CELL);
-        if plan::check(&drawn).is_err() {
-            drawn.settings.method.name = CPU.name();
-        }
+        let leaping = plan::plan(&drawn, None).ok().filter(|plan| plan.distance.is_some());
         let mut leaps = Structures::default();
-        leaps.prepare(&drawn, &plan::plan(&drawn, None)?);
+        match leaping {
+            Some(plan) => leaps.prepare(&drawn, &plan),
+            // Another method, or one that would look for something to leap over in every plan.
+            None => drawn.settings.method.name = CPU.name(),
+        }
         let leaps = Arc::new(Structures { distances: leaps.distances, ..Structures::default() });
         Ok([SEARCHED.look(&drawn, &leaps)?, CONFIRMED.look(&drawn, &leaps)?])
     }
