@@ -172,13 +172,23 @@ fn compare_at_equal_error(checked: &Checked, name: &str, scene: &Scene) -> Resul
             let mut chosen = scene.clone();
             chosen.settings.method.frames = u32::MAX;
             (chosen.settings.sampling.error, chosen.settings.sampling.error_norm) = (Some(bound), ErrorNorm::Rmse);
-            let Some(record) = settle(&mut chosen, &DeviceFacts::default())? else { break };
+            let record = match settle(&mut chosen, &DeviceFacts::default()) {
+                Ok(Some(record)) => record,
+                Ok(None) => break,
+                Err(why) => {
+                    println!("    {why}");
+                    break;
+                }
+            };
             let ours = ours(checked, &chosen, name, &record, MEASURED)?;
             println!("    {}", record.error.iter().map(ErrorChoice::words).collect::<String>());
             for one in &ours {
                 println!("    {:<46} {:<24} rmse {:.1e}", one.words, one.times.words(), one.rmse(&exact));
             }
             let worst = ours.iter().map(|one| one.rmse(&exact)).fold(0.0, f64::max);
+            if worst == 0.0 {
+                break;
+            }
             if worst <= theirs.rmse(&exact) {
                 println!("    {}", ratios(&ours, &theirs));
                 break;

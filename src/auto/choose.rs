@@ -61,14 +61,16 @@ pub(super) fn choose_open(scene: &Scene, facts: &DeviceFacts, open: LeftOpen) ->
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
     let asked = &scene.settings.method;
-    let of_passes = |method: &Method| scene.settings.sampling.passes == 0 || takes_passes(method);
+    // Of a method that is named, planners say what it does not take.
+    let is_named = !asked.name.is_auto();
+    let of_passes = |method: &Method| is_named || scene.settings.sampling.passes == 0 || takes_passes(method);
     // Shells have a picture of their own.
     let named = |method: &Method| asked.name.is_auto() || method.name() == asked.name;
     let asked_for = |method: &&'static Method| {
         named(method)
             && method.on_device
             && method.takes_samples()
-            && culls_as_asked(method, asked)
+            && (is_named || culls_as_asked(method, asked))
             && of_passes(method)
     };
     let (unfit, fit): (Vec<_>, Vec<_>) =

@@ -21,6 +21,9 @@ const STEPS: [f64; 18] =
 /// No error falls faster than with the square of the step; by so much more it may.
 const FASTER: f64 = 1.5;
 
+/// How many times the error of the larger small picture may be that of the smaller one: what is more is something that the latter has not seen.
+const LARGER: f64 = 4.0;
+
 /// The part of what one step was missed by that the next one is taken to be missed by: it is a matter of chance.
 const HOPE: f64 = 0.7;
 
@@ -168,7 +171,7 @@ impl Looks {
                 let found = self.confirm.error(&sampling, self.norm).ok()?;
                 over = CONFIRMED.safety(self.norm) * found / self.bound;
                 if over > 1.0 {
-                    larger = larger.max(found / error.max(f64::MIN_POSITIVE));
+                    larger = larger.max(found / error.max(f64::MIN_POSITIVE)).min(LARGER);
                 }
                 error = found;
             }

@@ -10,7 +10,7 @@ use crate::method::METHODS;
 /// A choice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AutoRecord {
-    /// M of the settings that were asked for; what was chosen stands in the run's settings.
+    /// M of the settings that were asked for, or by default where it was left open; what was chosen stands in the run's settings.
     pub samples_per_pass: u32,
     /// Frames that what is built was taken to serve, and whether the view changes from one to the next.
     pub frames: u32,

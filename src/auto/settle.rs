@@ -5,6 +5,7 @@ use cpu_time::ThreadTime;
 use super::choose::{DeviceFacts, choose_open};
 use super::error::meeting;
 use super::record::{AutoRecord, Estimate};
+use super::tunings::tunings;
 use crate::error::{Error, Result};
 use crate::feature::tiles;
 use crate::method::{self, METHODS, SINGLE_PASS};
@@ -47,6 +48,8 @@ pub fn settle(scene: &mut Scene, facts: &DeviceFacts) -> Result<Option<AutoRecor
             return Ok(None);
         }
         Some(method) if scene.settings.adaptive.importance || !is_weighed(method) => return Ok(None),
+        // Nothing of it varies.
+        Some(method) if asked.is_none() && tunings(method, &scene.settings, open).len() == 1 => return Ok(None),
         _ => {}
     }
     let begin = ThreadTime::now();

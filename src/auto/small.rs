@@ -7,7 +7,7 @@ use crate::frame::{Structures, cpu};
 use crate::method::{CPU, SINGLE_PASS_OMNI};
 use crate::plan;
 use crate::scene::Scene;
-use crate::scene::settings::{ErrorNorm, SamplingSettings};
+use crate::scene::settings::{ErrorNorm, SamplingSettings, Tiles};
 use crate::truth::exact::ExactIntegrator;
 
 /// The size of a small picture: pixels along the longer side, at the most; and how many times its error that of the whole picture is taken
@@ -65,7 +65,10 @@ impl SmallLook {
         let mut drawn = scene.clone();
         drawn.settings.sampling.error = None;
         (drawn.settings.method.name, drawn.settings.method.cell) = (SINGLE_PASS_OMNI.name(), CELL);
-        let leaping = plan::plan(&drawn, None).ok().filter(|plan| plan.distance.is_some());
+        drawn.settings.method.tiles = Tiles::All;
+        // Loops know nothing of a number of passes.
+        let in_passes = drawn.settings.sampling.passes > 0;
+        let leaping = plan::plan(&drawn, None).ok().filter(|plan| plan.distance.is_some() && !in_passes);
         let mut leaps = Structures::default();
         match leaping {
             Some(plan) => leaps.prepare(&drawn, &plan),

@@ -26,7 +26,7 @@ impl Following {
     /// The bytes of the distances that are looked up in the scene, which differs from the last one in its transfer function at the
     /// most; none where nobody asked, or they are made for a view.
     pub fn distances(&mut self, scene: &Scene, lookup: &Lookup) -> Option<&[u8]> {
-        if !self.asked {
+        if !self.asked || lookup.view.is_some() {
             return None;
         }
         let texels = Texels::of(scene);

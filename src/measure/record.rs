@@ -152,6 +152,11 @@ impl Run {
         self.method.parse().ok().and_then(method::find).is_some_and(|method| method.distance().is_some())
     }
 
+    /// Whether `auto` has chosen its method, and not the numbers alone of one that is named.
+    pub fn is_chosen_freely(&self) -> bool {
+        self.auto.as_ref().is_some_and(|auto| !auto.named)
+    }
+
     /// Whether it draws only tiles of pixels behind which something may show.
     pub fn draws_live_tiles(&self) -> bool {
         let leaves_out = self.method.parse().ok().and_then(method::find).is_some_and(tiles::are_left_out_by);

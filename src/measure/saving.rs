@@ -9,7 +9,7 @@ pub const AGAINST: &str = "rc-ert";
 /// Fills in what each run saves against the `rc-ert` run of the same form, or else the first one. All are of one scene.
 pub fn save(runs: &mut [&mut Run], on_cpu: bool) {
     // What `auto` has chosen may have another M.
-    let is_rule = |run: &&&mut Run| run.method == AGAINST && run.auto.is_none();
+    let is_rule = |run: &&&mut Run| run.method == AGAINST && !run.is_chosen_freely();
     let rules: Vec<Run> = runs.iter().filter(is_rule).map(|run| (**run).clone()).collect();
     for run in runs.iter_mut().filter(|run| run.method != AGAINST && run.method != "cpu") {
         let same = |rule: &&Run| (&rule.cull, &rule.mark) == (&run.cull, &run.mark);

@@ -56,7 +56,7 @@ fn rivals(group: &RunGroup) -> Option<Rivals> {
     let clock = group.runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock)?;
     let timed = |kinds: &'static [FragmentKind]| {
         let of_kind = |run: &&Run| run.fragment_kind().is_some_and(|kind| kinds.contains(&kind));
-        let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| run.auto.is_none()).filter(of_kind);
+        let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| !run.is_chosen_freely()).filter(of_kind);
         let timed = runs.filter_map(|run| Some((run, run.milliseconds(clock)?)));
         timed.min_by(|a, b| a.1.total_cmp(&b.1))
     };

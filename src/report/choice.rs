@@ -22,9 +22,10 @@ pub struct ChoiceLine {
 
 /// The run of `auto` in a group; none where it has none, or nothing beside it.
 pub fn choice_line(group: &RunGroup) -> Option<ChoiceLine> {
-    let (run, auto) = group.runs.iter().find_map(|(_, run)| Some((*run, run.auto.as_ref()?)))?;
+    let free = group.runs.iter().map(|(_, run)| *run).find(|run| run.is_chosen_freely());
+    let (run, auto) = free.and_then(|run| Some((run, run.auto.as_ref()?)))?;
     let clock = clock(group);
-    let others = group.runs.iter().map(|(_, other)| *other).filter(|other| other.auto.is_none());
+    let others = group.runs.iter().map(|(_, other)| *other).filter(|other| !other.is_chosen_freely());
     let timed = others.filter_map(|other| Some((label(other), whole_ms(other, auto, clock)?)));
     let (best, best_ms) = timed.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let look = auto.look_ms / f64::from(auto.frames.max(1));

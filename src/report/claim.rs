@@ -21,7 +21,7 @@ pub fn verdict(groups: &[RunGroup]) -> String {
         return "There are no runs.".to_owned();
     };
     let near = |group: &RunGroup| -> Option<(String, f64, f64)> {
-        let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| run.marks_sections() && run.auto.is_none());
+        let runs = group.runs.iter().map(|(_, run)| *run).filter(|run| run.marks_sections() && !run.is_chosen_freely());
         let saved = runs.filter_map(|run| {
             let saved = run.saved.as_ref()?;
             Some((label(run), saved.fragments?, saved.time?))

@@ -57,11 +57,11 @@ fn sampling_asked(run: &Run) -> SamplingSettings {
 /// The method with the switches that change its counts.
 pub fn label(run: &Run) -> String {
     let mut label = run.method.clone();
-    if let Some(auto) = run.auto.as_ref().filter(|auto| !auto.named) {
+    if run.is_chosen_freely() {
         label = format!("auto: {label}");
-        if auto.samples_per_pass != run.settings.sampling.samples_per_pass {
-            let _ = write!(label, " (M = {})", run.settings.sampling.samples_per_pass);
-        }
+    }
+    if run.auto.as_ref().is_some_and(|auto| auto.samples_per_pass != run.settings.sampling.samples_per_pass) {
+        let _ = write!(label, " (M = {})", run.settings.sampling.samples_per_pass);
     }
     if run.method == BASELINE && run.settings.method.block_first {
         label.push_str(" (block first)");
@@ -134,7 +134,7 @@ impl<'a> RunGroup<'a> {
 
     fn pick(&self, method: &str, preferred: impl Fn(&Run) -> bool) -> Option<&'a Run> {
         let all = || self.runs.iter().map(|(_, run)| *run).filter(|run| run.method == method);
-        all().find(|run| run.auto.is_none() && preferred(run)).or_else(|| all().next())
+        all().find(|run| !run.is_chosen_freely() && preferred(run)).or_else(|| all().next())
     }
 
     /// Lower bounds of the main fragments, each once; more than one where methods differ in what they may skip.

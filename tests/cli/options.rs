@@ -27,7 +27,8 @@ fn rejects_steps_that_are_none() {
 fn rejects_numbers_out_of_their_range() {
     let place = driverless();
     for (option, parts) in [
-        ("--samples-per-pass 0", ["--samples-per-pass", "from 1 to 65536"]),
+        ("--samples-per-pass 65537", ["--samples-per-pass", "from 0 to 65536, or auto"]),
+        ("--samples-per-pass many", ["--samples-per-pass", "it is not auto either"]),
         ("--samples-per-pass -1", ["--samples-per-pass", "-1"]),
         ("--passes 65537", ["--passes", "65536"]),
         ("--termination 1.5", ["--termination", "from 0 to 1"]),
