@@ -157,13 +157,21 @@ pub struct Columns<S> {
     pub(super) feet: Vec<[S; LANES]>,
     /// Between which places all nearest ones of an anchor are.
     pub(super) bounds: Vec<[usize; 2]>,
+    /// Whether these are to hold for squares that become less, too.
+    lasting: bool,
 }
 
 impl<S: Square> Columns<S> {
     pub fn new(length: usize, weight: u32) -> Self {
         let rows = vec![[S::FAR; LANES]; length];
         let bounds = vec![[0; 2]; length.div_ceil(ANCHOR)];
-        Self { ways: ways(length, weight), squares: rows.clone(), least: rows.clone(), feet: rows, bounds }
+        let (squares, least) = (rows.clone(), rows.clone());
+        Self { ways: ways(length, weight), squares, least, feet: rows, bounds, lasting: false }
+    }
+
+    /// Columns whose bounds go on holding where squares change, which takes longer to find them.
+    pub(super) fn lasting(length: usize, weight: u32) -> Self {
+        Self { lasting: true, ..Self::new(length, weight) }
     }
 
     /// Takes the rows of a column each, of [`LANES`] squares or fewer.
@@ -268,7 +276,7 @@ impl<S: Square> Columns<S> {
             }
         }
         self.least[place] = best;
-        let bounds = towards.with(place, bounds);
+        let bounds = if self.lasting { towards.with(place, bounds) } else { bounds };
         let mut found = [usize::MAX, 0];
         for lane in (0..LANES).filter(|lane| nearest[*lane] < S::FAR) {
             let at = at[lane].place();

@@ -64,7 +64,7 @@ impl<S: Square> Repair<S> {
     pub fn new(length: usize, weight: u32) -> Self {
         let (rows, anchors) = (vec![[S::FAR; LANES]; length], anchors(length));
         Self {
-            columns: Columns::new(length, weight),
+            columns: Columns::lasting(length, weight),
             before: rows,
             stale: vec![false; length],
             spans: vec![[0; 2]; anchors],
