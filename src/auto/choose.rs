@@ -53,7 +53,7 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
     choose_open(&scene, facts, open)
 }
 
-/// The same of a scene of which so much was left open.
+/// Chooses as [`choose`] does, for a scene whose numbers were left open and have been closed.
 pub(super) fn choose_open(scene: &Scene, facts: &DeviceFacts, open: LeftOpen) -> Result<AutoRecord> {
     let mut look = Look::of(scene)?;
     look.leaves_out_tiles = leaves_out_tiles(scene, &look, open);

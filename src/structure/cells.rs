@@ -122,7 +122,7 @@ pub fn interesting(field: &Field, values: &Values, shown: &Shown, grid: &Grid, n
     interesting_where(field, values, &Support::of(shown), grid, nearest)
 }
 
-/// The same by where anything shows.
+/// The flags of [`interesting`], by where anything shows.
 pub(super) fn interesting_where(
     field: &Field,
     values: &Values,

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::fragments::{legend, legend_line};
-use super::{FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, ink_at, svg};
+use super::{FONT_SIZE, GRID, INK, LEGEND_WIDTH, WIDTH, color, ink, ink_at, svg, ticks};
 use crate::error::Result;
 use crate::measure::record::OrbitFrame;
 use crate::report::comparison::{RunGroup, label};
@@ -13,8 +13,6 @@ use crate::report::comparison::{RunGroup, label};
 const HEIGHT: u32 = 460;
 /// Radius of the ring around a change of stacks.
 const RING: i32 = 6;
-/// Ticks along each axis, about.
-const TICKS: usize = 8;
 
 /// Root mean square differences to the frame before, by how far the camera has turned. `None` where no run has an orbit of several
 /// frames.
@@ -71,13 +69,4 @@ pub fn changes_svg(group: &RunGroup) -> Result<Option<String>> {
 /// Neighbouring frames whose slices are of different stacks.
 fn pops(frames: &[OrbitFrame]) -> impl Iterator<Item = &[OrbitFrame]> {
     frames.windows(2).filter(|pair| pair[0].stack != pair[1].stack)
-}
-
-/// An axis from 0 on, with ticks at 1, 2 or 5 times a power of ten.
-fn ticks(end: f64) -> Ticks {
-    let least = end / TICKS as f64;
-    let decade = 10f64.powf(least.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * decade).into_iter().find(|step| *step >= least);
-    let step = step.unwrap_or(least);
-    Ticks { range: 0.0..end, at: (0..=(end / step) as u32).map(|i| f64::from(i) * step).collect() }
 }

@@ -2,23 +2,18 @@
 
 use plotters::prelude::*;
 
-use super::fragments::legend;
-use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, mark, svg};
+use super::fragments::beside_legend;
+use super::{Area, Drawn, FONT_SIZE, GRID, INK, Ticks, color, ink, mark};
 use crate::error::Result;
 use crate::report::cost::Sweep;
 
 const HEIGHT: u32 = 420;
-const LEGEND_LINE: u32 = 22;
 
 /// # Errors
 /// When the drawing fails, which only a fault of this program explains.
 pub fn cost_svg(sweep: &Sweep) -> Result<String> {
     let labels: Vec<String> = sweep.rows.iter().map(|row| row.label.clone()).collect();
-    svg(HEIGHT.max(70 + LEGEND_LINE * labels.len() as u32), |area| {
-        let (panel, key) = area.split_horizontally(WIDTH - LEGEND_WIDTH - 60);
-        draw(&panel, sweep)?;
-        legend(&key, &labels)
-    })
+    beside_legend(HEIGHT, &labels, |panel| draw(panel, sweep))
 }
 
 fn draw<'a>(area: &Area<'a>, sweep: &Sweep) -> Drawn<'a> {

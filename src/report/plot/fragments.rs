@@ -15,6 +15,8 @@ const HEIGHT: u32 = 640;
 /// Pixels from line to line of a legend, and down to its first one.
 const LEGEND_LINE: i32 = 22;
 const LEGEND_TOP: i32 = 66;
+/// Pixels that the legend of a chart of lines takes besides, whose labels have settings in them.
+const LONGER_LABELS: u32 = 60;
 /// Radius of a mark.
 const MARK: i32 = 4;
 
@@ -188,4 +190,17 @@ pub(super) fn legend<'a>(area: &Area<'a>, labels: &[String]) -> Drawn<'a> {
         area.draw(&Text::new(label.clone(), (44, y), ink_at(FONT_SIZE, HPos::Left, VPos::Center)))?;
     }
     Ok(())
+}
+
+/// A chart of lines with its legend on the right, so many pixels high or as high as the legend is.
+pub(super) fn beside_legend(
+    height: u32,
+    labels: &[String],
+    draw: impl for<'a> FnOnce(&Area<'a>) -> Drawn<'a>,
+) -> Result<String> {
+    svg(height.max((LEGEND_TOP + LEGEND_LINE * labels.len() as i32) as u32), |area| {
+        let (panel, key) = area.split_horizontally(WIDTH - LEGEND_WIDTH - LONGER_LABELS);
+        draw(&panel)?;
+        legend(&key, labels)
+    })
 }

@@ -2,38 +2,23 @@
 
 use plotters::prelude::*;
 
-use super::fragments::legend;
-use super::{Area, Drawn, FONT_SIZE, GRID, INK, LEGEND_WIDTH, Ticks, WIDTH, color, ink, mark, svg};
+use super::fragments::beside_legend;
+use super::{Area, Drawn, FONT_SIZE, GRID, INK, color, ink, mark, ticks};
 use crate::error::Result;
 use crate::measure::record::Clock;
 use crate::report::growth::{Growth, Line};
 use crate::report::number::thousands;
 
 const HEIGHT: u32 = 480;
-const LEGEND_LINE: u32 = 22;
 
-/// Places along an axis, about, and the part of an axis that is left beyond the last mark.
-const PLACES: f64 = 6.0;
+/// How much longer an axis is than to its last mark.
 const ROOM: f64 = 1.05;
 
 /// # Errors
 /// When the drawing fails, which only a fault of this program explains.
 pub fn growth_svg(growth: &Growth) -> Result<String> {
     let labels: Vec<String> = growth.rows.iter().map(|row| row.label.clone()).collect();
-    svg(HEIGHT.max(70 + LEGEND_LINE * labels.len() as u32), |area| {
-        let (panel, key) = area.split_horizontally(WIDTH - LEGEND_WIDTH - 60);
-        draw(&panel, growth)?;
-        legend(&key, &labels)
-    })
-}
-
-/// An axis from 0 to somewhat beyond `top`, with places at 1, 2 or 5 times a power of ten.
-fn axis(top: f64) -> Ticks {
-    let top = top.max(f64::MIN_POSITIVE) * ROOM;
-    let power = 10f64.powf((top / PLACES).log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * power).find(|step| top / step <= PLACES);
-    let step = step.unwrap_or(top);
-    Ticks { range: 0.0..top, at: (0..=(top / step) as u32).map(|i| f64::from(i) * step).collect() }
+    beside_legend(HEIGHT, &labels, |panel| draw(panel, growth))
 }
 
 fn draw<'a>(area: &Area<'a>, growth: &Growth) -> Drawn<'a> {
@@ -45,11 +30,9 @@ fn draw<'a>(area: &Area<'a>, growth: &Growth) -> Drawn<'a> {
         Clock::Gpu => "device time of a frame, ms",
         Clock::Wall => "wall time of a frame, ms",
     };
-    let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(44)
-        .y_label_area_size(64)
-        .build_cartesian_2d(axis(last), axis(times.fold(0.0, f64::max)))?;
+    let [x, y] = [last, times.fold(0.0, f64::max)].map(|top| ticks(top.max(f64::MIN_POSITIVE) * ROOM));
+    let mut chart =
+        ChartBuilder::on(area).margin(10).x_label_area_size(44).y_label_area_size(64).build_cartesian_2d(x, y)?;
     chart
         .configure_mesh()
         .disable_x_mesh()

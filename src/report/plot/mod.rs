@@ -65,6 +65,18 @@ fn ink_at(size: u32, h: HPos, v: VPos) -> TextStyle<'static> {
     ink(size).pos(Pos::new(h, v))
 }
 
+/// Ticks along an axis that begins at 0, about.
+const TICKS: usize = 8;
+
+/// An axis from 0 on, with ticks at 1, 2 or 5 times a power of ten.
+fn ticks(end: f64) -> Ticks {
+    let least = end / TICKS as f64;
+    let decade = 10f64.powf(least.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * decade).into_iter().find(|step| *step >= least);
+    let step = step.unwrap_or(least);
+    Ticks { range: 0.0..end, at: (0..=(end / step) as u32).map(|i| f64::from(i) * step).collect() }
+}
+
 /// A drawing of that height, on white.
 fn svg(height: u32, draw: impl for<'a> FnOnce(&Area<'a>) -> Drawn<'a>) -> Result<String> {
     let mut text = String::new();

@@ -8,10 +8,10 @@ use crate::error::{Error, Result as Outcome};
 /// The number that stands for one to be chosen.
 pub const AUTO: u32 = 0;
 
-/// The word for it.
+/// The word that leaves a number to be chosen.
 const WORD: &str = "auto";
 
-/// Of an option.
+/// Reads a number of an option, or the word.
 pub(super) fn option(text: &str) -> Result<u32, String> {
     match text {
         WORD => Ok(AUTO),
@@ -19,7 +19,7 @@ pub(super) fn option(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Of a scene file.
+/// Reads a number of a scene file, or the word.
 pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged, expecting = "expected a number, or auto")]
