@@ -2,7 +2,7 @@
 // in colour and the length in alpha, both in volume space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [PLANES], [ORTHOGRAPHIC]
+//@takes [PLANES | SINGLE_RAYS], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"

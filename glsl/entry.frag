@@ -5,7 +5,7 @@
 // vertices, which rasterisers move to a raster of 1/256 pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [PLANES], [ORTHOGRAPHIC]
+//@takes [PLANES | SINGLE_RAYS], [ORTHOGRAPHIC]
 
 #include "shared/frame.glsl"
 #include "shared/double_float.glsl"

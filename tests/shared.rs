@@ -14,7 +14,7 @@ use std::sync::LazyLock;
 use bytemuck::Zeroable;
 use depthleap::glsl::compile::{CompiledModule, compile_unoptimised};
 use depthleap::glsl::{self, Shader};
-use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, PushStep, Slice, SliceCut, Slices, TetView};
+use depthleap::shared::{AxisPiece, Bundle, ClipPlane, Frame, PushStep, SingleRays, Slice, SliceCut, Slices, TetView};
 use rayon::prelude::*;
 use rspirv::dr::{Instruction, Module, Operand, load_words};
 use rspirv::spirv::{Decoration, Op};
@@ -110,6 +110,10 @@ fn axis_piece() -> Layout {
 
 fn clip_plane() -> Layout {
     layout!(ClipPlane { heights, plane })
+}
+
+fn single_rays() -> Layout {
+    layout!(SingleRays { place, place_right, place_down, heading, heading_right, heading_down, center, near })
 }
 
 fn slices() -> Layout {
@@ -227,7 +231,8 @@ impl<'a> Types<'a> {
 }
 
 /// The structs that both sides know.
-const STRUCTS: [&str; 8] = ["Frame", "Step", "Slice", "Slices", "Bundle", "ClipPlane", "AxisPiece", "TetView"];
+const STRUCTS: [&str; 9] =
+    ["Frame", "Step", "SingleRays", "Slice", "Slices", "Bundle", "ClipPlane", "AxisPiece", "TetView"];
 
 /// A module's name, and those of the structs that it has.
 type Known = (String, Vec<(&'static str, Layout)>);
@@ -302,6 +307,11 @@ fn bundle_is_alike_in_rust_and_in_every_shader() {
 #[test]
 fn clip_plane_is_alike_in_rust_and_in_every_shader() {
     assert_alike("ClipPlane", &clip_plane(), "entry.frag:PLANES");
+}
+
+#[test]
+fn single_rays_are_alike_in_rust_and_in_every_shader() {
+    assert_alike("SingleRays", &single_rays(), "box.vert:SINGLE_RAYS");
 }
 
 #[test]

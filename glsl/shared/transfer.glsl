@@ -15,13 +15,14 @@ struct Piece {
 
 // Of each piece (begin, inverse_length, clear, clear_change), then rgba and change, or both of grey and opacity in one.
 //
-// FEW_PIECES: in a uniform buffer, whose rows are the same in all invocations and are read once for them, where drivers of CPUs read
-// those of a storage buffer invocation by invocation.
+// FEW_PIECES: in a uniform buffer, whose rows are the same in all invocations, where drivers of CPUs read those of a storage buffer
+// invocation by invocation. They are read once, before the loop over samples: such drivers do not take reading out of loops.
 #ifdef FEW_PIECES
 // FEW_ROWS in src/shared/mod.rs.
 layout(set = 0, binding = 5, std140) uniform Transfer {
     vec4 rows[48];
 } transfer;
+vec4 transfer_rows[48] = transfer.rows;
 #else
 layout(set = 0, binding = 5, std430) readonly buffer Transfer {
     vec4 rows[];
@@ -38,25 +39,31 @@ layout(constant_id = 14) const bool GREY = false;
 // Rows of a piece.
 const int ROWS = GREY ? 2 : 3;
 
-Piece piece_at(int at) {
-    vec4 place = transfer.rows[at * ROWS];
-    vec4 first = transfer.rows[at * ROWS + 1];
+// Of two rows where they are grey.
+Piece piece_of_rows(vec4 place, vec4 first, vec4 second) {
     vec4 rgba = GREY ? first.xxxy : first;
-    vec4 change = GREY ? first.zzzw : transfer.rows[at * ROWS + 2];
+    vec4 change = GREY ? first.zzzw : second;
     return Piece(rgba, change, place.x, place.y, place.z, place.w);
+}
+
+Piece piece_at(int at) {
+    return piece_of_rows(transfer.rows[at * ROWS], transfer.rows[at * ROWS + 1], transfer.rows[at * ROWS + ROWS - 1]);
 }
 
 // The piece of a value: at a jump the later one; clamped outside.
 Piece piece_of(float value) {
 #ifdef FEW_PIECES
-    Piece piece = piece_at(0);
-    for (int at = 1; at < PIECES; ++at) {
-        Piece next = piece_at(at);
-        if (value >= next.begin) {
-            piece = next;
+    vec4 place = transfer_rows[0];
+    vec4 first = transfer_rows[1];
+    vec4 second = transfer_rows[ROWS - 1];
+    for (int row = ROWS; row < PIECES * ROWS; row += ROWS) {
+        if (value >= transfer_rows[row].x) {
+            place = transfer_rows[row];
+            first = transfer_rows[row + 1];
+            second = transfer_rows[row + ROWS - 1];
         }
     }
-    return piece;
+    return piece_of_rows(place, first, second);
 #else
     int at = 0;
     for (int width = SEARCH; width > 0; width >>= 1) {

@@ -32,6 +32,7 @@ mod preintegration;
 mod reasons;
 pub mod refraction;
 pub mod shells;
+pub mod single_rays;
 mod start;
 pub mod surface;
 pub mod tiles;
@@ -51,6 +52,7 @@ pub use environment::ENVIRONMENT;
 pub use layers::{CLIP_BEGIN, DEPTH_LAYERS, OPAQUE_SURFACE};
 pub use orthographic::ORTHOGRAPHIC;
 pub use refraction::REFRACTION;
+pub use single_rays::SINGLE_RAYS;
 pub use start::START;
 pub use surface::{ISO_SURFACE, SURFACES_IN_VOLUME, TRANSPARENT_SURFACES};
 
@@ -75,7 +77,7 @@ use preintegration::PREINTEGRATION;
 use transfer_function::{FEW_PIECES, TRANSFER_FUNCTION};
 
 /// Every feature, in the order in which plans say what was left out.
-pub const FEATURES: [&Feature; 44] = [
+pub const FEATURES: [&Feature; 45] = [
     &DECISIONS,
     &MARK_COPIES,
     &LATER_DECISIONS,
@@ -105,6 +107,7 @@ pub const FEATURES: [&Feature; 44] = [
     &APART,
     &ORTHOGRAPHIC,
     &CLIP_PLANES,
+    &SINGLE_RAYS,
     &CLIP_VOLUME,
     &ISO_SURFACE,
     &TRANSPARENT_SURFACES,

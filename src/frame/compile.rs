@@ -219,6 +219,7 @@ impl Compiler<'_> {
         let framebuffer = self.framebuffer(&render_pass, targets)?;
         let key = PipelineKey {
             render_pass: info,
+            vertex: draw.vertex(),
             shader: draw.shader.clone(),
             constants: draw.constants.clone(),
             test: draw.test,

@@ -114,6 +114,7 @@ pub fn run(scene: &Scene, plan: &Plan, structures: &Structures, sub_pixel_bits: 
     let twin = Twin {
         scene,
         rays: plan.view.rays,
+        rays_off: plan.rays_off,
         slices: plan.view.slices.as_deref(),
         cells: plan.view.cells.as_deref(),
         medium: Some(&medium),

@@ -19,6 +19,7 @@ use crate::vulkan::{
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct PipelineKey {
     pub render_pass: RenderPassInfo,
+    pub vertex: glsl::Shader,
     pub shader: Option<Arc<glsl::Shader>>,
     pub constants: Arc<Vec<Constant>>,
     pub test: DepthTest,
@@ -69,7 +70,7 @@ impl Pipelines {
             return Ok(known.clone());
         }
         let render_pass = self.render_pass(&key.render_pass)?;
-        let vertex = self.shader(&vertex(key.geometry))?;
+        let vertex = self.shader(&key.vertex)?;
         let fragment = key.shader.as_deref().map(|shader| self.shader(shader)).transpose()?;
         let constants = match (&key.shader, &fragment) {
             (Some(shader), Some(fragment)) => present(shader, fragment, &key.constants)?,
@@ -127,7 +128,7 @@ impl Pipelines {
         let mut asked: Vec<glsl::Shader> = Vec::new();
         for step in steps {
             asked.extend(step.work.shader().map(|shader| glsl::Shader::clone(shader)));
-            asked.extend(step.work.geometry().map(vertex));
+            asked.extend(step.work.vertex());
         }
         glsl::prepare(asked.iter().filter(|shader| !self.shaders.contains_key(shader)))
     }
@@ -140,10 +141,6 @@ impl Pipelines {
         self.shaders.insert(shader.clone(), made.clone());
         Ok(made)
     }
-}
-
-fn vertex(geometry: &Geometry) -> glsl::Shader {
-    glsl::Shader::new(geometry.vertex, [])
 }
 
 /// The constants that a module has. Those it has no use for are gone from its SPIR-V; one that its file declares for no

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 
 use ash::vk;
 
-use crate::part::Step;
 use crate::part::access::{Access, Usage};
 use crate::part::resource::Resource;
+use crate::part::{Step, Work};
 use crate::resource;
 use crate::vulkan::{Attachment, Dependency, RenderPassInfo, Role, Scope};
 
@@ -72,7 +72,14 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             }
             let following = next(resource);
             let leave = following.map_or(during, |a| a.usage.layout());
-            attachments.push(attachment(resource, usage, format(resource), before, leave, following.is_some()));
+            let made = attachment(resource, usage, format(resource), before, leave, following.is_some());
+            let load = match made.load {
+                vk::AttachmentLoadOp::CLEAR if read_where_drawn(step, resource, &steps[i + 1..]) => {
+                    vk::AttachmentLoadOp::DONT_CARE
+                }
+                load => load,
+            };
+            attachments.push(Attachment { load, ..made });
             targets.push(resource);
             layouts.insert(resource, leave);
             after.extend(following.map(|a| scope(a.usage)));
@@ -81,7 +88,7 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
             after.extend(uses.take_while(|a| !a.usage.writes()).map(|a| scope(a.usage)));
             last.insert(resource, usage);
         }
-        let render_pass = matches!(step.work, crate::part::Work::Draw(_)).then(|| {
+        let render_pass = matches!(step.work, Work::Draw(_)).then(|| {
             let earlier = |a: &Access| -> Option<Usage> {
                 let of = |s: &Step| s.accesses.iter().find(|b| b.resource == a.resource).map(|b| b.usage);
                 steps[..i].iter().rev().find_map(of)
@@ -102,6 +109,15 @@ pub fn schedule(steps: &[Step], format: impl Fn(Resource) -> vk::Format) -> Vec<
         scheduled.push(Scheduled { barriers, render_pass, targets, layouts: layouts.clone() });
     }
     scheduled
+}
+
+/// Whether what a target holds beside what the step draws counts for nobody: the step draws all of the volume's box, and later steps
+/// draw in it too and read no more than their pixel. Clearing would take a device as long as drawing.
+fn read_where_drawn(step: &Step, resource: Resource, later: &[Step]) -> bool {
+    let fills = matches!(&step.work, Work::Draw(draw) if draw.fills);
+    let of = |step: &Step| step.accesses.iter().find(|access| access.resource == resource).map(|access| access.usage);
+    let in_box = |step: &Step| step.work.geometry().is_some_and(|geometry| geometry.within_box);
+    fills && later.iter().all(|step| of(step).is_none_or(|usage| usage == Usage::Sampled && in_box(step)))
 }
 
 /// The first step that draws into a target clears it; the last one keeps it only where somebody still reads it.

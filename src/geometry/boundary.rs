@@ -17,6 +17,7 @@ pub static BOUNDARY: Geometry = Geometry {
     range: |scene, _, _| 0..scene.tetrahedra.as_ref().map_or(0, |mesh| 3 * mesh.boundary.len() as u32),
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: false,
     hits,
 };
 

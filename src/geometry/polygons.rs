@@ -42,6 +42,7 @@ const POLYGONS: Geometry = Geometry {
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: false,
     hits: |_, _, _| Hits { fragments: 0, undecided: false },
 };
 

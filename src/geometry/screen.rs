@@ -14,5 +14,6 @@ pub static SCREEN: Geometry = Geometry {
     range: |_, _, _| 0..3,
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: false,
     hits: |_, view, sample| Hits { fragments: view.region.contains(sample.pixel).into(), undecided: false },
 };

@@ -18,6 +18,7 @@ pub static SHELLS: Geometry = Geometry {
     range: |scene, _, pass| 0..3 * count(scene, pass)[1],
     numbers: |scene, pass| Some(size_of::<[f32; 3]>() as u64 * u64::from(count(scene, pass)[0])),
     parts: |_| None,
+    within_box: false,
     hits,
 };
 

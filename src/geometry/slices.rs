@@ -17,6 +17,7 @@ pub static SLICES_CUT: Geometry = Geometry {
     range: |_, view, pass| view.slices.as_ref().map_or(0..0, |slices| slices.numbers_in(pass)),
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };
 
@@ -33,5 +34,6 @@ pub static SLICES: Geometry = Geometry {
     },
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };

@@ -10,6 +10,7 @@ pub static LIVE_TILES: Geometry = Geometry {
     vertices: BOX_FRONT.vertices,
     corner: BOX_FRONT.corner,
     range: BOX_FRONT.range,
+    within_box: true,
     numbers: BOX_FRONT.numbers,
     parts: |view| view.tiles.as_ref().map(|tiles| tiles.live()),
     hits: |scene, view, sample| match view.tiles.as_ref().is_some_and(|tiles| tiles.contains(sample.pixel)) {

@@ -30,6 +30,7 @@ const BOX: Geometry = Geometry {
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
     parts: |_| None,
+    within_box: true,
     hits,
 };
 

@@ -145,6 +145,14 @@ impl Work {
         }
     }
 
+    /// The vertex shader, where it draws.
+    pub fn vertex(&self) -> Option<Shader> {
+        match self {
+            Self::Draw(draw) => Some(draw.vertex()),
+            _ => None,
+        }
+    }
+
     /// What is compiled for it; none where nothing is drawn or computed, or the vertex shader does.
     pub fn shader(&self) -> Option<&Arc<Shader>> {
         match self {
@@ -209,12 +217,16 @@ pub struct Draw {
     /// The greatest stored depth with which a fragment takes part, where the step is culled.
     pub bound: f32,
     pub test: DepthTest,
+    /// A define of the vertex shader's, if any.
+    pub vertex_define: Option<&'static str>,
     /// The fragment shader; none where only the count matters.
     pub shader: Option<Arc<Shader>>,
     /// Specialization constants, by name.
     pub constants: Arc<Vec<Constant>>,
     /// How its colour goes into what is there.
     pub blend: Blend,
+    /// Whether it gives every pixel that it covers a colour of its own.
+    pub fills: bool,
     /// The same in f64; none where a pixel is not changed.
     pub twin: Option<TwinPass>,
 }
@@ -243,9 +255,11 @@ impl Draw {
             least: 0.0,
             bound: 1.0,
             test: DepthTest::NONE,
+            vertex_define: None,
             shader: Some(Arc::new(Shader::new(file, []))),
             constants: Arc::default(),
             blend: Blend::Replace,
+            fills: false,
             twin: Some(twin),
         }
     }
@@ -255,6 +269,11 @@ impl Draw {
         if let Some(shader) = &mut self.shader {
             Arc::make_mut(shader).defines.extend(defines);
         }
+    }
+
+    /// The vertex shader.
+    pub fn vertex(&self) -> Shader {
+        Shader::new(self.geometry.vertex, self.vertex_define)
     }
 
     /// Gives the shader a text of the user's that it includes.

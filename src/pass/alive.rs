@@ -32,9 +32,11 @@ pub fn alive(geometry: &'static Geometry, pass: u32, beside: Option<Resource>) -
             least: 0.0,
             bound: ALIVE,
             test: DepthTest { compare: Some(vk::CompareOp::GREATER_OR_EQUAL), write: false, bounds: false },
+            vertex_define: None,
             shader: None,
             constants: Default::default(),
             blend: Blend::Replace,
+            fills: false,
             twin: None,
         }),
     )

@@ -1,7 +1,7 @@
-//! What passes that decide about rays know them by: ENTRY and DIR, or where slices lie.
+//! What passes know rays by: where they meet the box, ENTRY and DIR, or where slices lie.
 
 use super::constants;
-use crate::feature;
+use crate::feature::{self, SINGLE_RAYS};
 use crate::part::Draw;
 use crate::part::access::{Access, Usage};
 use crate::part::rows::{Context, Hook};
@@ -11,6 +11,13 @@ use crate::resource;
 pub fn find(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
     accesses.extend(context.method.stack().is_none().then(|| Usage::Sampled.of(resource::ENTRY)));
     find_length(context, draw, accesses);
+}
+
+/// Lets a draw of the box find where the ray of its pixel meets it.
+pub fn meet(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
+    accesses.extend(feature::reads(context, Hook::Interval));
+    draw.define(feature::defines(context, Hook::Interval));
+    draw.vertex_define = SINGLE_RAYS.define(context);
 }
 
 /// Lets a draw find how many samples the ray of its pixel takes.

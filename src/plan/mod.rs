@@ -11,7 +11,7 @@ pub use left_out::LeftOut;
 pub use warnings::{notes, warnings};
 
 use crate::error::Result;
-use crate::feature::{self, DISTANCES};
+use crate::feature::{self, DISTANCES, SINGLE_RAYS};
 use crate::method;
 use crate::part::form::Form;
 use crate::part::resource::{Facts, Resource};
@@ -41,6 +41,8 @@ pub struct Plan {
     pub distance: Option<Lookup>,
     /// How the volume is kept for the steps of the frame; none where none of them reads it on a device.
     pub texture: Option<TextureChoice>,
+    /// How far off the place where a ray enters or leaves may be, in texture coordinates; 0 where it is found in double-floats.
+    pub rays_off: f64,
     /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation.
     pub pixel_error: f64,
     /// Uploads and builds, then the frame itself.
@@ -207,14 +209,27 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     let mut steps = frame;
     steps.splice(0..0, before);
     let reads_volume = method.takes_samples() || scene.surface.is_some() && !method.goes_through_cells();
+    let rays_off = if method.on_device && context.has(&SINGLE_RAYS) { view.single_rays(scene).error } else { 0.0 };
     let texture = (method.on_device && passes > 0 && reads_volume).then(|| {
         let volume = TextureChoice::of(scene);
-        TextureChoice { error: volume.error.max(scene.error_beside()), ..volume }
+        TextureChoice { error: volume.error.max(scene.error_beside()) + scene.error_of_places(rays_off), ..volume }
     });
     let error = texture.map_or(0.0, |texture| texture.error);
     let ends = feature::may_end(&context);
     let pixel_error = precision::pixel_error(scene, error, &Gathered::of(scene, &view, passes), ends);
-    Ok(Plan { view, method, passes, form: choice.form, distance, texture, pixel_error, steps, builds, left_out })
+    Ok(Plan {
+        view,
+        method,
+        passes,
+        form: choice.form,
+        distance,
+        texture,
+        rays_off,
+        pixel_error,
+        steps,
+        builds,
+        left_out,
+    })
 }
 
 /// N: main passes of a view.

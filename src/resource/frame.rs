@@ -41,6 +41,19 @@ static FRAME_INFO: ResourceInfo = ResourceInfo {
     }),
 };
 
+/// The view's rays in single floats.
+pub const SINGLE_RAYS: Resource = Resource::new(&SINGLE_RAYS_INFO);
+static SINGLE_RAYS_INFO: ResourceInfo = ResourceInfo {
+    name: "single_rays",
+    holds: "rays of the view in single floats, `SingleRays` of single_rays.glsl",
+    kind: ResourceKind::Uniform(|_, _| size_of::<shared::SingleRays>() as u64),
+    life: Life::Frame,
+    origin: Origin::Host(|facts| {
+        let rays = shared::SingleRays::new(&facts.view.single_rays(facts.scene));
+        Cow::Owned(bytemuck::bytes_of(&rays).to_vec())
+    }),
+};
+
 /// Polygons of slices.
 pub const SLICE_CORNERS: Resource = Resource::new(&SLICE_CORNERS_INFO);
 static SLICE_CORNERS_INFO: ResourceInfo = ResourceInfo {

@@ -21,7 +21,7 @@ pub mod texels;
 pub use clip_volume::{CLIP_VOLUME, CLIP_VOLUME_PLACE};
 pub use environment::{ENVIRONMENT, ENVIRONMENT_PLACE};
 pub use frame::{
-    ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, SLICE_CORNERS, SLICE_CUT,
+    ACCUMULATED, BOX, CLIP_PLANES, DIRECTION, ENTRY, FRAME, MARKS, MARKS_BUFFER, SINGLE_RAYS, SLICE_CORNERS, SLICE_CUT,
     SLICE_NUMBERS, SLICES, STORED,
 };
 pub use gradients::{GRADIENT_TEXELS, GRADIENTS, gradient_bytes, gradients};
@@ -48,9 +48,10 @@ pub use tetrahedra::{
 use crate::part::resource::Resource;
 
 /// Every resource, in the order of lists.
-pub const RESOURCES: [Resource; 82] = [
+pub const RESOURCES: [Resource; 83] = [
     BOX,
     FRAME,
+    SINGLE_RAYS,
     SLICE_CORNERS,
     SLICE_NUMBERS,
     SLICE_CUT,

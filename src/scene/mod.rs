@@ -27,6 +27,7 @@ pub mod region;
 pub mod scenes;
 pub mod settings;
 pub mod shells;
+pub mod single_rays;
 mod sky;
 pub mod slice_polygons;
 pub mod slices;

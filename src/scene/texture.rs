@@ -316,6 +316,12 @@ fn interpolation(field: &Field, format: TexelFormat, filter: Filter, unit: &Text
 }
 
 impl Scene {
+    /// What comes to the error of an interpolated x where places are off by so much on each axis, in texture coordinates.
+    pub fn error_of_places(&self, off: f64) -> f64 {
+        let voxels = 3.0 * off * self.field.dims().into_iter().max().unwrap_or(1) as f64;
+        if voxels > 0.0 { voxels * self.field.contrast() } else { 0.0 }
+    }
+
     /// A bound of the error of an interpolated x that samples take from beside their gradients, in codes of 8 bits where `codes`, of
     /// which a number from 0 to 1 spans so much of x; besides what making these lost.
     pub(super) fn error_beside_gradients(&self, codes: bool, span: f64) -> f64 {

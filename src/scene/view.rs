@@ -8,6 +8,7 @@ use super::Scene;
 use super::frustum::Frustum;
 use super::longest::longest_ray;
 use super::region::Region;
+use super::single_rays::SingleRays;
 use super::slice_polygons::SlicePolygons;
 use super::slices::{SliceSurface, Slices, Stack};
 use super::tetrahedra::{CellsView, Tetrahedra};
@@ -94,6 +95,11 @@ impl View {
     /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space.
     pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
         Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes))), ..self }
+    }
+
+    /// The rays of what is drawn, as single floats find them.
+    pub fn single_rays(&self, scene: &Scene) -> SingleRays {
+        SingleRays::new(&self.rays, scene.field.extent(), self.region)
     }
 
     /// What shows of the slices of the scene that this is a view of; nothing where there are none.

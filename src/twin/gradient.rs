@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::samples::FACE_ROUNDING;
-use super::segment::{PLACE_ROUNDING, VALUE_ROUNDING};
+use super::segment::VALUE_ROUNDING;
 use super::{Pixel, Twin};
 use crate::math::interpolate::{bracket, mix, nearest, trilinear};
 use crate::scene::gradients::{NO_GRADIENT, ZERO_CODE};
@@ -115,7 +115,7 @@ impl Twin<'_> {
             let all = || corners.iter().map(|corner| corner[c]);
             let spread = all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min);
             let largest = all().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-            Channel { value, off: VALUE_ROUNDING * largest + PLACE_ROUNDING * spread }
+            Channel { value, off: VALUE_ROUNDING * largest + self.place_rounding() * spread }
         })
     }
 }

@@ -61,6 +61,8 @@ pub const SKIPPED: f64 = 0.5;
 pub struct Twin<'a> {
     pub scene: &'a Scene,
     pub rays: ViewRays,
+    /// How far off the place where a ray enters or leaves may be in f32, in texture coordinates, besides its last bit.
+    pub rays_off: f64,
     /// What samples lie on, where they lie on slices.
     pub slices: Option<&'a Slices>,
     /// What rays meet of a mesh of cells; none for methods that do not go through them.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::lighting::LOOSE;
-use super::segment::PLACE_ROUNDING;
+use super::samples::PLACE_ROUNDING;
 use super::{Effect, Pixel, Twin};
 use crate::math::interpolate::trilinear;
 use crate::scene::RefractiveIndex;

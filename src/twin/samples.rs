@@ -13,6 +13,9 @@ const LENGTH_ROUNDING: f64 = 2e-7;
 /// Places are good to 2^-22 voxels: a sample this near to the face of a cell may be on either side of it.
 pub(super) const FACE_ROUNDING: f64 = 1e-6;
 
+/// Places are good to 2^-22 voxels on each axis, over which the value changes by that share of the spread of its cell.
+pub(super) const PLACE_ROUNDING: f64 = 1e-6;
+
 impl Twin<'_> {
     /// Distance between samples in volume units.
     pub fn step_length(&self) -> f64 {
@@ -36,7 +39,19 @@ impl Twin<'_> {
             Last::None => steps,
             Last::Full | Last::Partial => steps - self.scene.settings.sampling.offset.steps(),
         };
-        (shifted - shifted.round()).abs() > LENGTH_ROUNDING * steps.max(1.0)
+        // Both ends of a ray may be off on three axes.
+        let off = 2.0 * 3.0_f64.sqrt() * self.rays_off / self.step_length();
+        (shifted - shifted.round()).abs() > LENGTH_ROUNDING * steps.max(1.0) + off
+    }
+
+    /// How far off places may be in f32, in voxels.
+    pub(super) fn place_rounding(&self) -> f64 {
+        PLACE_ROUNDING + self.voxels_off()
+    }
+
+    /// How far off rays in single floats are, in voxels.
+    fn voxels_off(&self) -> f64 {
+        self.rays_off * self.scene.field.dims().into_iter().max().unwrap_or(1) as f64
     }
 
     /// Steps from the entry point to sample `i`.
@@ -75,7 +90,8 @@ impl Twin<'_> {
         let voxel = self.voxel(place);
         let found = look(self.scene.field.cell_at(voxel));
         let near = |by: f64| self.scene.field.cell_at(voxel + DVec3::splat(by));
-        let (low, high) = (near(-FACE_ROUNDING), near(FACE_ROUNDING));
+        let off = FACE_ROUNDING + self.voxels_off();
+        let (low, high) = (near(-off), near(off));
         if low != high {
             let corner = |n: usize| std::array::from_fn(|axis| if n >> axis & 1 == 0 { low[axis] } else { high[axis] });
             pixel.undecided |= (0..8).any(|n| look(corner(n)) != found);
@@ -89,6 +105,7 @@ impl Twin<'_> {
         let field = &self.scene.field;
         let place = self.voxel(self.place_of(pixel, i)) - 0.5;
         let stride = self.voxel(pixel.direction / field.extent() * self.step_length());
+        let off = FACE_ROUNDING + self.voxels_off();
         let mut steps = [f64::INFINITY; 2];
         for axis in 0..3 {
             let (at, last, up) = (cell[axis] / side, (field.cells()[axis] - 1) / side, stride[axis] > 0.0);
@@ -96,7 +113,7 @@ impl Twin<'_> {
                 continue;
             }
             let way = ((at + usize::from(up)) * side) as f64 - place[axis];
-            for (least, by) in steps.iter_mut().zip([-FACE_ROUNDING, FACE_ROUNDING]) {
+            for (least, by) in steps.iter_mut().zip([-off, off]) {
                 *least = least.min(way / stride[axis] + by / stride[axis].abs());
             }
         }

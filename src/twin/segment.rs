@@ -15,9 +15,6 @@ use crate::truth::preintegrated::{PreintegratedTable, part_of};
 /// Three interpolations of values about 1 round to a few units of 2^-24.
 pub(super) const VALUE_ROUNDING: f64 = 3e-7;
 
-/// Places are good to 2^-22 voxels on each axis, over which the value changes by that share of the spread of its cell.
-pub(super) const PLACE_ROUNDING: f64 = 1e-6;
-
 impl Twin<'_> {
     /// Premultiplied colour of sample `i`.
     fn shade_sample(&self, pixel: &mut Pixel, i: u32) -> [f64; 4] {
@@ -178,7 +175,7 @@ impl Twin<'_> {
         let corners = field.corners(field.cell_at(voxel)).map(|c| f64::from(field.values[c]));
         let spread =
             corners.into_iter().fold(f64::NEG_INFINITY, f64::max) - corners.into_iter().fold(f64::INFINITY, f64::min);
-        VALUE_ROUNDING * value.abs() + (PLACE_ROUNDING + more) * spread
+        VALUE_ROUNDING * value.abs() + (self.place_rounding() + more) * spread
     }
 
     /// What sample `i` brings to its ray, whatever is shown.

@@ -154,7 +154,7 @@ fn in_turn(method: &Method, turn: usize) -> bool {
 pub fn shaders(plans: &[(String, Plan)]) -> BTreeSet<Shader> {
     let steps = || plans.iter().flat_map(|(_, plan)| &plan.steps);
     let planned = steps().filter_map(|step| step.work.shader()).map(|shader| Shader::clone(shader));
-    let corners = steps().filter_map(|step| step.work.geometry()).map(|geometry| Shader::new(geometry.vertex, []));
+    let corners = steps().filter_map(|step| step.work.vertex());
     let others = pipelines::shaders(&Case::all()).into_iter().chain([texture_unit::shader()]);
     planned.chain(corners).chain(others).collect()
 }

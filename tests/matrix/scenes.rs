@@ -30,7 +30,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 91] = [
+const KINDS: [(&str, Change); 92] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -61,6 +61,10 @@ const KINDS: [(&str, Change); 91] = [
     ("the texture unit", |s| {
         (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
         s.sampling.termination = 1.0;
+    }),
+    ("the texture unit in an orthographic view", |s| {
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        (s.sampling.termination, s.camera.height) = (1.0, Some(1.1));
     }),
     ("holes", |s| (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole)),
     ("extra fetches", |s| s.sampling.extra_fetches = 2),

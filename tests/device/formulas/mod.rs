@@ -8,6 +8,7 @@ mod ray;
 mod root;
 mod samples;
 mod section;
+mod single_rays;
 mod volume;
 
 use depthleap::read;
@@ -22,6 +23,7 @@ pub fn tests() -> Vec<Test> {
         opacity::all(),
         double_float::all(),
         ray::all(),
+        single_rays::all(),
         section::all(),
         samples::all(),
         volume::all(),

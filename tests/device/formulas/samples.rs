@@ -108,6 +108,7 @@ fn twin(scene: &Scene) -> Twin<'_> {
     Twin {
         scene,
         rays: scene.camera.rays([ROW, ROWS]).unwrap(),
+        rays_off: 0.0,
         slices: None,
         cells: None,
         medium: None,

@@ -1,0 +1,37 @@
+//! Rays in single floats, where these are good enough for what samples are made of.
+
+use crate::part::rows::{Context, Feature, Hook, Why};
+use crate::resource;
+use crate::scene::settings::Filter;
+use crate::scene::single_rays::ENOUGH;
+
+/// Rays that are found in single floats, not in double-floats.
+pub const SINGLE_RAYS: Feature = Feature {
+    with: Some("SINGLE_RAYS"),
+    reads: |_| vec![resource::SINGLE_RAYS],
+    ..Feature::at(Hook::Interval, "rays in single floats", needed)
+};
+
+fn needed(context: &Context) -> Result<(), Why> {
+    let (scene, method) = (context.scene, context.method);
+    let whole = context.layers == 0 && !context.opaque && scene.clip_planes().is_empty();
+    let straight = scene.settings.effects.refraction.is_none() && scene.effect.is_none();
+    if !context.plans()
+        || !method.on_device
+        || !method.takes_samples()
+        || method.stack().is_some()
+        || !whole
+        || !straight
+    {
+        return Err(Why::Untold);
+    }
+    // Shaders that interpolate keep places to a part of a voxel that single floats of the whole volume do not tell.
+    if scene.settings.sampling.filter != Filter::Hardware {
+        return Err(Why::Untold);
+    }
+    let off = context.view.single_rays(scene).error * scene.field.dims().into_iter().max().unwrap_or(1) as f64;
+    if off > ENOUGH {
+        return Err(format!("they may be {off:.1e} voxels off in this view, where {ENOUGH:.1e} is enough").into());
+    }
+    Ok(())
+}
