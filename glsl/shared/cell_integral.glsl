@@ -15,6 +15,9 @@ const float OPAQUE_DEPTH = 1.0e30;
 // What is left to pass that nobody sees.
 const float BLACK = 1.0e-8;
 
+// Where the last piece ends: beyond every value.
+const float ENDLESS_PIECE = 3.0e38;
+
 // Parts of a way at the most: transparencies down to the least number of f32 are a hundredth each of the one before at worst.
 const int MOST_PARTS = 1024;
 
@@ -63,23 +66,37 @@ vec4 over_part(vec4 first, vec4 last, vec2 clear, float lengths) {
     return light;
 }
 
-// The piece in which a way goes on from a value: at a jump the later piece begins there, or ends.
-int piece_ahead(float value, bool falls) {
-    int found = 0;
+// The piece in which a way goes on from a value: at a jump the later piece begins there, or ends. `above` is where the next one begins.
+Piece piece_ahead(float value, bool falls, out float above) {
+    above = ENDLESS_PIECE;
 #ifdef FEW_PIECES
-    for (int at = 1; at < PIECES; ++at) {
-        float begin = piece_at(at).begin;
-        found = (falls ? value > begin : value >= begin) ? at : found;
+    vec4 place = transfer_rows[0];
+    vec4 first = transfer_rows[1];
+    vec4 second = transfer_rows[ROWS - 1];
+    for (int row = ROWS; row < PIECES * ROWS; row += ROWS) {
+        float begin = transfer_rows[row].x;
+        if (falls ? value > begin : value >= begin) {
+            place = transfer_rows[row];
+            first = transfer_rows[row + 1];
+            second = transfer_rows[row + ROWS - 1];
+        } else {
+            above = min(above, begin);
+        }
     }
+    return piece_of_rows(place, first, second);
 #else
+    int found = 0;
     for (int width = SEARCH; width > 0; width >>= 1) {
         if (found + width < PIECES) {
             float begin = transfer.rows[(found + width) * ROWS].x;
             found += (falls ? value > begin : value >= begin) ? width : 0;
         }
     }
+    if (found + 1 < PIECES) {
+        above = transfer.rows[(found + 1) * ROWS].x;
+    }
+    return piece_at(found);
 #endif
-    return found;
 }
 
 // The part of a way of `left_over` reference lengths from `at` to `back` that is integrated as one: where it ends, how much of the way it
@@ -92,11 +109,10 @@ struct Part {
 
 Part part_from(float at, float back, float left_over) {
     bool falls = back < at;
-    int number = piece_ahead(at, falls);
-    Piece piece = piece_at(number);
+    float above;
+    Piece piece = piece_ahead(at, falls, above);
     // Before the first bend the transfer function is what it is there.
     bool before = falls ? at <= piece.begin : at < piece.begin;
-    float above = number + 1 < PIECES ? piece_at(number + 1).begin : back;
     float end = falls ? (before ? back : max(piece.begin, back)) : min(before ? piece.begin : above, back);
     float weight = clamp((at - piece.begin) * piece.inverse_length, 0.0, 1.0);
     float clear = max(piece.clear + weight * piece.clear_change, 0.0);
