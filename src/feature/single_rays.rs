@@ -1,5 +1,6 @@
 //! Rays in single floats, where these are good enough for what samples are made of.
 
+use super::lights::LIT_SAMPLES;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::resource;
 use crate::scene::settings::Filter;
@@ -14,15 +15,11 @@ pub const SINGLE_RAYS: Feature = Feature {
 
 fn needed(context: &Context) -> Result<(), Why> {
     let (scene, method) = (context.scene, context.method);
+    let along_rays = method.on_device && method.takes_samples() && method.stack().is_none();
     let whole = context.layers == 0 && !context.opaque && scene.clip_planes().is_empty();
-    let straight = scene.settings.effects.refraction.is_none() && scene.effect.is_none();
-    if !context.plans()
-        || !method.on_device
-        || !method.takes_samples()
-        || method.stack().is_some()
-        || !whole
-        || !straight
-    {
+    // What a ray that bends, or a gradient where values hardly change, makes of a difference has no bound.
+    let bounded = scene.settings.effects.refraction.is_none() && !context.has(&LIT_SAMPLES);
+    if !along_rays || !whole || !bounded {
         return Err(Why::Untold);
     }
     // Shaders that interpolate keep places to a part of a voxel that single floats of the whole volume do not tell.

@@ -8,7 +8,6 @@
 
 use glam::DVec3;
 
-use super::Region;
 use crate::math::ray::ViewRays;
 
 /// The most that single floats may be off with where a ray enters or leaves, in voxels: an eighth of what texture units of 8 bits tell of
@@ -53,7 +52,7 @@ impl Even {
 /// The rays of a view as single floats find them, in texture coordinates from the middle of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingleRays {
-    /// Column and row of the middle of what is drawn, in pixels.
+    /// Column and row of the middle of the picture, in pixels.
     pub center: [f64; 2],
     /// Where rays are half way between the nearest and the deepest place of the volume, high parts and low ones.
     pub place: [Even; 2],
@@ -66,10 +65,9 @@ pub struct SingleRays {
 }
 
 impl SingleRays {
-    /// Of what a view of a box with these sides draws, in volume units.
-    pub fn new(rays: &ViewRays, extent: DVec3, region: Region) -> Self {
-        let half = [region.width, region.height].map(|pixels| 0.5 * f64::from(pixels));
-        let center = [f64::from(region.x) + half[0], f64::from(region.y) + half[1]];
+    /// Of a view of a box with these sides, in volume units, in a picture of so many columns and rows.
+    pub fn new(rays: &ViewRays, extent: DVec3, size: [u32; 2]) -> Self {
+        let center = size.map(|pixels| 0.5 * f64::from(pixels));
         let corner = 0.5 * extent;
         let depths = [rays.nearest(-corner, corner), rays.deepest(-corner, corner)];
         let middle = 0.5 * (depths[0] + depths[1]);
@@ -83,8 +81,8 @@ impl SingleRays {
         let heading = Even { middle: axis.direction / extent, right: heading.0, down: heading.1 };
         let single = Self {
             center,
-            place: place.parts(half),
-            heading: heading.parts(half),
+            place: place.parts(center),
+            heading: heading.parts(center),
             near: rays.near - middle,
             error: f64::INFINITY,
         };
@@ -93,15 +91,15 @@ impl SingleRays {
             // A ray that meets a face at most at that depth comes on as fast as this towards it.
             false => ((rays.origin / extent).abs() - 0.5).abs().min_element() / depths[1],
         };
-        let [places, headings] = [place.most(half), heading.most(half)];
-        Self { error: single.error(half, [places, headings], 0.5 * (depths[1] - depths[0]), slowest), ..single }
+        let [places, headings] = [place.most(center), heading.most(center)];
+        Self { error: single.error([places, headings], 0.5 * (depths[1] - depths[0]), slowest), ..single }
     }
 
     /// A bound of the error, from the most that places and headings come to, the most depth from the middle, and the least speed towards a
     /// face that is met, in texture coordinates for a unit of depth. It follows the operations of `glsl/shared/single_rays.glsl`.
-    fn error(&self, half: [f64; 2], [places, headings]: [DVec3; 2], depth: f64, slowest: f64) -> f64 {
+    fn error(&self, [places, headings]: [DVec3; 2], depth: f64, slowest: f64) -> f64 {
         // Of a low part: its three numbers, two products and two sums.
-        let low = |parts: &[Even; 2]| 4.0 * UNIT * parts[1].most(half);
+        let low = |parts: &[Even; 2]| 4.0 * UNIT * parts[1].most(self.center);
         let (place, heading) = (low(&self.place), low(&self.heading));
         // The depth of a face: two differences, the heading's sum, a quotient. The low parts count as the ray nears the face.
         let of_depth = 4.0 * UNIT * depth + (place + depth * heading).max_element() / slowest;

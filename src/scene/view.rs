@@ -97,9 +97,9 @@ impl View {
         Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes))), ..self }
     }
 
-    /// The rays of what is drawn, as single floats find them.
+    /// The rays of the whole picture, as single floats find them: the same, whatever part of it is drawn.
     pub fn single_rays(&self, scene: &Scene) -> SingleRays {
-        SingleRays::new(&self.rays, scene.field.extent(), self.region)
+        SingleRays::new(&self.rays, scene.field.extent(), self.size)
     }
 
     /// What shows of the slices of the scene that this is a view of; nothing where there are none.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use depthleap::math::ray::box_interval;
+use depthleap::scene::Camera;
 use depthleap::scene::single_rays::{ENOUGH, SingleRays};
-use depthleap::scene::{Camera, Region};
 use depthleap::shared::{self, Frame};
 use depthleap::vulkan::{Bound, Buffer, BufferInfo, Device, Place, vk};
 use glam::DVec3;
@@ -23,8 +23,7 @@ type Results = [[f32; 4]; 2];
 /// What rounding a direction and a length, and the products with them, take from where a ray leaves: in its length.
 const OF_DIRECTION: f64 = 4.0 / (1 << 24) as f64;
 
-/// A part of the picture, as where the box covers a part of it.
-const REGION: Region = Region { x: 13, y: 7, width: 83, height: 60 };
+const SIZE: [u32; 2] = [110, 75];
 
 /// From all around, from far away, from within, with narrow and wide fields of view, and without perspective.
 fn cameras() -> Vec<Camera> {
@@ -46,8 +45,8 @@ fn rays_are_no_farther_off_than_stated(device: &Arc<Device>) {
     let (mut worst, mut hits, mut enough) = (0.0_f64, 0, 0);
     for (i, camera) in cameras().into_iter().enumerate() {
         let scene = &boxes[i % boxes.len()];
-        let (rays, extent) = (camera.rays([110, 75]).unwrap(), scene.field.extent());
-        let single = SingleRays::new(&rays, extent, REGION);
+        let (rays, extent) = (camera.rays(SIZE).unwrap(), scene.field.extent());
+        let single = SingleRays::new(&rays, extent, SIZE);
         assert!(single.error.is_finite(), "{camera:?}");
         enough += u32::from(256.0 * single.error <= ENOUGH);
         let numbers = shared::SingleRays::new(&single);
@@ -64,7 +63,7 @@ fn rays_are_no_farther_off_than_stated(device: &Arc<Device>) {
         uniform.write(0, bytemuck::bytes_of(&numbers)).unwrap();
         let frame = Some(Frame::new(scene, &rays, 1, [0; 2]));
         let setup = Setup { frame, resources: vec![("single_rays", Bound::Uniform(&uniform))] };
-        let pixels: Vec<[u32; 2]> = REGION.rows().flat_map(|y| REGION.columns().map(move |x| [x, y])).collect();
+        let pixels: Vec<[u32; 2]> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])).collect();
         let arguments: Vec<[f32; 4]> =
             pixels.iter().map(|&[x, y]| [x as f32 + 0.5, y as f32 + 0.5, 0.0, 0.0]).collect();
         let results: Vec<Results> = evaluator.run(&setup, &arguments);
