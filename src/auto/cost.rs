@@ -44,10 +44,10 @@ struct SampleCosts {
 const LOOP: Costs = Costs {
     frame: 4.5e6,
     pass: 0.0,
-    pixel: 45.0,
+    pixel: 20.0,
     covered: 0.0,
     main: 0.0,
-    sample: SampleCosts { color: 7.5, preintegrated: 45.0, value: 5.0, surface: 100.0 },
+    sample: SampleCosts { color: 4.5, preintegrated: 42.0, value: 4.5, surface: 100.0 },
     intermediate: 0.0,
     block: 15.0,
     distance: 7.5,
@@ -59,10 +59,10 @@ const LOOP: Costs = Costs {
 const PASSES: Costs = Costs {
     frame: 4e6,
     pass: 5.5e5,
-    pixel: 300.0,
+    pixel: 250.0,
     covered: 3.6,
     main: 110.0,
-    sample: SampleCosts { color: 10.0, preintegrated: 75.0, value: 8.0, surface: 12.0 },
+    sample: SampleCosts { color: 7.5, preintegrated: 75.0, value: 8.0, surface: 12.0 },
     intermediate: 125.0,
     block: 69.0,
     distance: 0.0,
@@ -73,10 +73,10 @@ const PASSES: Costs = Costs {
 /// Main passes that decide where rays go on.
 const FUSED: Costs = Costs {
     pass: 6e5,
-    pixel: 280.0,
+    pixel: 230.0,
     covered: 9.8,
     main: 140.0,
-    sample: SampleCosts { color: 12.0, preintegrated: 80.0, value: 10.0, surface: 12.0 },
+    sample: SampleCosts { color: 9.0, preintegrated: 80.0, value: 10.0, surface: 12.0 },
     intermediate: 100.0,
     block: 0.0,
     surface: [210.0, 340.0],
