@@ -1,6 +1,6 @@
 // Rays of the view and where they meet the volume's box. Twin: src/math/ray.rs, of the box at planes `cut_interval` there.
-// Needs frame.glsl and double_float.glsl. SINGLE_RAYS: single_rays.glsl stands for all of it. PLANES: the interval of a ray is cut at clip planes [Thesis §3.1.2]. ORTHOGRAPHIC: rays lie
-// side by side.
+// Needs frame.glsl and double_float.glsl. SINGLE_RAYS: single_rays.glsl stands for all of it. PLANES: the interval of a ray is cut at
+// clip planes [Thesis §3.1.2]. ORTHOGRAPHIC: rays lie side by side.
 
 #ifdef SINGLE_RAYS
 #include "shared/single_rays.glsl"

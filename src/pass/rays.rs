@@ -17,7 +17,15 @@ pub fn find(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
 pub fn meet(context: &Context, draw: &mut Draw, accesses: &mut Vec<Access>) {
     accesses.extend(feature::reads(context, Hook::Interval));
     draw.define(feature::defines(context, Hook::Interval));
+    hand_on(context, draw, accesses);
+}
+
+/// Lets the vertex shader hand on rays in single floats, where a draw has such: it reads them, and not its fragments.
+pub fn hand_on(context: &Context, draw: &mut Draw, accesses: &mut [Access]) {
     draw.vertex_define = SINGLE_RAYS.define(context);
+    for access in accesses.iter_mut().filter(|access| access.resource == resource::SINGLE_RAYS) {
+        access.usage = Usage::Placing;
+    }
 }
 
 /// Lets a draw find how many samples the ray of its pixel takes.

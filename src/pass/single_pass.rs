@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::constants;
-use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, SINGLE_RAYS, effect, lights, surface};
+use super::{constants, rays};
+use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, effect, lights, surface};
 use crate::geometry::{BOX_FRONT, LIVE_TILES};
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
@@ -24,7 +24,7 @@ pub fn single_pass(context: &Context) -> Step {
     accesses.push(drawn.of(resource::ACCUMULATED));
     let mut draw = Draw::plain(geometry, "single_pass.frag", twin::single_pass::single_pass);
     draw.define(of_loop.defines);
-    draw.vertex_define = SINGLE_RAYS.define(context);
+    rays::hand_on(context, &mut draw, &mut accesses);
     draw.insert(effect::insert(context));
     draw.specialize(of_loop.constants);
     Step::drawn("single_pass".to_owned(), Group::Main, 0, accesses, draw)
