@@ -28,7 +28,6 @@ const float SLOWEST = 1e-30;
 
 ViewRay view_ray(vec2 pixel) {
     vec2 at = pixel - view_rays.center;
-    ViewRay ray;
     // Exact.
     precise vec3 place = view_rays.place[0].xyz + at.x * view_rays.place_right[0].xyz + at.y * view_rays.place_down[0].xyz;
     precise vec3 place_low = view_rays.place[1].xyz + at.x * view_rays.place_right[1].xyz + at.y * view_rays.place_down[1].xyz;

@@ -46,9 +46,11 @@ Piece piece_of_rows(vec4 place, vec4 first, vec4 second) {
     return Piece(rgba, change, place.x, place.y, place.z, place.w);
 }
 
+#ifndef FEW_PIECES
 Piece piece_at(int at) {
     return piece_of_rows(transfer.rows[at * ROWS], transfer.rows[at * ROWS + 1], transfer.rows[at * ROWS + ROWS - 1]);
 }
+#endif
 
 // The piece of a value: at a jump the later one; clamped outside.
 Piece piece_of(float value) {

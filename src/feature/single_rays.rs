@@ -1,10 +1,11 @@
 //! Rays in single floats, where these are good enough for what samples are made of.
 
-use super::lights::LIT_SAMPLES;
+use super::layers;
 use crate::part::rows::{Context, Feature, Hook, Why};
 use crate::resource;
 use crate::scene::settings::Filter;
 use crate::scene::single_rays::ENOUGH;
+use crate::scene::texture::TextureChoice;
 
 /// Rays that are found in single floats, not in double-floats.
 pub const SINGLE_RAYS: Feature = Feature {
@@ -16,9 +17,9 @@ pub const SINGLE_RAYS: Feature = Feature {
 fn needed(context: &Context) -> Result<(), Why> {
     let (scene, method) = (context.scene, context.method);
     let along_rays = method.on_device && method.takes_samples() && method.stack().is_none();
-    let whole = context.layers == 0 && !context.opaque && scene.clip_planes().is_empty();
-    // What a ray that bends, or a gradient where values hardly change, makes of a difference has no bound.
-    let bounded = scene.settings.effects.refraction.is_none() && !context.has(&LIT_SAMPLES);
+    let whole = !layers::cut(context) && scene.clip_planes().is_empty() && scene.clip_volume.is_none();
+    // What surfaces, lights and rays that bend make of a difference has no bound.
+    let bounded = scene.surface.is_none() && scene.lights.is_empty() && scene.settings.effects.refraction.is_none();
     if !along_rays || !whole || !bounded {
         return Err(Why::Untold);
     }
@@ -26,9 +27,14 @@ fn needed(context: &Context) -> Result<(), Why> {
     if scene.settings.sampling.filter != Filter::Hardware {
         return Err(Why::Untold);
     }
-    let off = context.view.single_rays(scene).error * scene.field.dims().into_iter().max().unwrap_or(1) as f64;
+    let error = context.view.single_rays(scene).error;
+    let off = error * scene.field.dims().into_iter().max().unwrap_or(1) as f64;
     if off > ENOUGH {
         return Err(format!("they may be {off:.1e} voxels off in this view, where {ENOUGH:.1e} is enough").into());
+    }
+    let (x, precision) = (TextureChoice::of(scene).error, scene.settings.volume.precision);
+    if x <= precision && x + scene.error_of_places(error) > precision {
+        return Err("with them x would not be as precise as asked for".into());
     }
     Ok(())
 }

@@ -26,7 +26,7 @@ pub struct Geometry {
     pub numbers: fn(&Scene, u32) -> Option<u64>,
     /// Rectangles of pixels that alone are drawn, without overlap, from the first pixel of the view's region; none where all are.
     pub parts: fn(&View) -> Option<&[Region]>,
-    /// Whether it covers no pixels but those of the volume's box, each once.
+    /// Whether it covers no pixels but those of the volume's box, each once, and its fragments read targets at their own pixel only.
     pub within_box: bool,
     /// The fragments of a pixel, in f64.
     pub hits: fn(&Scene, &View, Sample) -> Hits,

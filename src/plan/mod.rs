@@ -41,9 +41,10 @@ pub struct Plan {
     pub distance: Option<Lookup>,
     /// How the volume is kept for the steps of the frame; none where none of them reads it on a device.
     pub texture: Option<TextureChoice>,
-    /// How far off the place where a ray enters or leaves may be, in texture coordinates; 0 where it is found in double-floats.
+    /// How far off places on a ray may be, in texture coordinates; 0 where rays are found in double-floats, or in f64.
     pub rays_off: f64,
-    /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation.
+    /// A bound of what the texture's error changes of a channel, premultiplied and linear, against exact interpolation, where a ray
+    /// takes as many samples: one that ends within rounding of a sample may have it or not.
     pub pixel_error: f64,
     /// Uploads and builds, then the frame itself.
     pub steps: Vec<Step>,

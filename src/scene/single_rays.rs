@@ -1,7 +1,7 @@
 //! Rays of a view in single floats: numbers that keep them good, and how far they may be off.
 //!
-//! Where a ray lies between the nearest and the deepest place of the volume, its place and its heading change evenly over the
-//! picture: `middle + column * right + row * down`. Both are found in two parts. The high parts of the three are whole multiples of one
+//! At the depth half way between the nearest and the deepest place of the volume a ray's place changes evenly over the picture, and so
+//! does its heading: `middle + column * right + row * down`. Both are found in two parts. The high parts of the three are whole multiples of one
 //! grain, coarse enough for their products with columns and rows, and the sum of these, to be exact in f32. The low parts, what is
 //! left, are so small that their rounding does not count. So nothing is lost where a ray's place and a face of the box, or its heading
 //! and 0, almost cancel, and what is off does not grow with the distance of the eye.
@@ -10,17 +10,21 @@ use glam::DVec3;
 
 use crate::math::ray::ViewRays;
 
-/// The most that single floats may be off with where a ray enters or leaves, in voxels: an eighth of what texture units of 8 bits tell of
+/// The most that single floats may be off with places on a ray, in voxels: an eighth of what texture units of 8 bits tell of
 /// places between voxels.
 pub const ENOUGH: f64 = 1.0 / 2048.0;
 
 /// What rounding takes from an f32, relative.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
 
-/// So many bits less than its largest number a grain has: of the 24 of an f32 one is for the sum of three roundings.
+/// What a device may take from a quotient or a root, relative: 2.5 units in the last place (Vulkan specification, precision of operations).
+const QUOTIENT: f64 = 5.0 * UNIT;
+
+/// So many bits less than its largest number a grain has: of the 24 of an f32 one is for the sum of three roundings, which holds for
+/// pictures of fewer than 2^23 columns and rows.
 const BITS_OF_GRAIN: i32 = 23;
 
-/// No number of a view counts that is smaller: single precision has its grain.
+/// Smaller numbers count as this one: their grain would be no normal number of single precision.
 const SMALLEST: f64 = 1e-25;
 
 /// Three numbers, one of each axis, that change evenly over the picture: `middle + column * right + row * down`.
@@ -60,7 +64,7 @@ pub struct SingleRays {
     pub heading: [Even; 2],
     /// Where rays begin, in depth from those places.
     pub near: f64,
-    /// How far off the place where a ray enters or leaves may be on any axis.
+    /// How far off places on a ray may be on any axis.
     pub error: f64,
 }
 
@@ -95,17 +99,20 @@ impl SingleRays {
         Self { error: single.error([places, headings], 0.5 * (depths[1] - depths[0]), slowest), ..single }
     }
 
-    /// A bound of the error, from the most that places and headings come to, the most depth from the middle, and the least speed towards a
-    /// face that is met, in texture coordinates for a unit of depth. It follows the operations of `glsl/shared/single_rays.glsl`.
+    /// A bound of the error of places on a ray, in texture coordinates: from the most that places and headings come to, the most depth from
+    /// the middle, and the least speed towards a face that is met, in texture coordinates for a unit of depth. It follows the operations of
+    /// `glsl/shared/single_rays.glsl`.
     fn error(&self, [places, headings]: [DVec3; 2], depth: f64, slowest: f64) -> f64 {
         // Of a low part: its three numbers, two products and two sums.
         let low = |parts: &[Even; 2]| 4.0 * UNIT * parts[1].most(self.center);
         let (place, heading) = (low(&self.place), low(&self.heading));
         // The depth of a face: two differences, the heading's sum, a quotient. The low parts count as the ray nears the face.
-        let of_depth = 4.0 * UNIT * depth + (place + depth * heading).max_element() / slowest;
+        let of_depth = (3.0 * UNIT + QUOTIENT) * depth + (place + depth * heading).max_element() / slowest;
         // The place there: the sums of both parts, a product, a sum, and the way to coordinates from 0 to 1.
         let at_depth = UNIT * (places + 2.0 * depth * headings + 1.5) + place + depth * heading;
-        let error = (at_depth + headings * of_depth).max_element();
+        // The way from end to end, at most 1: two differences, a product and its number, half of a square's two, a root, a quotient.
+        let of_way = 5.5 * UNIT + 2.0 * QUOTIENT;
+        let error = (at_depth + headings * of_depth).max_element() + of_way;
         if error.is_nan() { f64::INFINITY } else { error }
     }
 }

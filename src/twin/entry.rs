@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Effect, Pixel, Twin, stored};
 
-/// Fills `entry`, texture coordinates. A pixel whose ray misses keeps the clear value.
+/// Fills `entry`, texture coordinates. A pixel whose ray misses keeps what it has.
 pub fn entry(twin: &Twin, pixel: &mut Pixel, _: u32) -> Effect {
     let ray = twin.rays.of(pixel.column, pixel.row);
     let extent = twin.scene.field.extent();

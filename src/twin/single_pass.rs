@@ -44,7 +44,9 @@ pub fn computed(twin: &Twin, pixel: &mut Pixel, pass: u32) -> Effect {
         let half = 0.5 * (1.0 + grown) * scene.field.extent();
         cut_interval(&ray, half, rays.near, scene.clip_planes()).is_some()
     };
-    pixel.undecided |= meets(BOX_ROUNDING) != meets(-BOX_ROUNDING);
+    // Rays in single floats may be off on two axes at an edge.
+    let off = BOX_ROUNDING + 4.0 * twin.rays_off;
+    pixel.undecided |= meets(off) != meets(-off);
     if meets(0.0) { single_pass(twin, pixel, pass) } else { backdrop::backdrop(twin, pixel, pass) }
 }
 

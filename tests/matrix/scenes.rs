@@ -30,7 +30,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 92] = [
+const KINDS: [(&str, Change); 93] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -65,6 +65,10 @@ const KINDS: [(&str, Change); 92] = [
     ("the texture unit in an orthographic view", |s| {
         (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
         (s.sampling.termination, s.camera.height) = (1.0, Some(1.1));
+    }),
+    ("the texture unit, and a mesh that clips as in the thesis", |s| {
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        (s.sampling.termination, s.clips) = (1.0, vec![clip(0.8, Keep::Thesis)]);
     }),
     ("holes", |s| (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole)),
     ("extra fetches", |s| s.sampling.extra_fetches = 2),
