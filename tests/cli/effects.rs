@@ -51,7 +51,11 @@ fn plans_name_the_effect() {
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["scene"], "shells:12 with the effect tint, ramp");
     assert!(
-        json["steps"].as_array().unwrap().iter().any(|step| step["shader"] == "single_pass.frag:EFFECT+FEW_PIECES"),
+        json["steps"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|step| step["shader"] == "single_pass.frag:EFFECT+FEW_PIECES+SINGLE_RAYS"),
         "{json}"
     );
     assert!(json["texture"]["pixel_error"].is_number() || json["texture"]["pixel_error"].is_null());
