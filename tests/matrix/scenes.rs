@@ -68,7 +68,7 @@ const KINDS: [(&str, Change); 93] = [
     }),
     ("the texture unit, and a mesh that clips as in the thesis", |s| {
         (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
-        (s.sampling.termination, s.clips) = (1.0, vec![clip(0.8, Keep::Thesis)]);
+        (s.sampling.termination, s.clips) = (1.0, vec![clip(0.4, Keep::Thesis)]);
     }),
     ("holes", |s| (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole)),
     ("extra fetches", |s| s.sampling.extra_fetches = 2),
