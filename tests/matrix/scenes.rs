@@ -62,14 +62,6 @@ const KINDS: [(&str, Change); 93] = [
         (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
         s.sampling.termination = 1.0;
     }),
-    ("the texture unit in an orthographic view", |s| {
-        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
-        (s.sampling.termination, s.camera.height) = (1.0, Some(1.1));
-    }),
-    ("the texture unit, and a mesh that clips as in the thesis", |s| {
-        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
-        (s.sampling.termination, s.clips) = (1.0, vec![clip(0.4, Keep::Thesis)]);
-    }),
     ("holes", |s| (s.volume.no_data, s.volume.nan) = (vec![NO_DATA], NanPolicy::Hole)),
     ("extra fetches", |s| s.sampling.extra_fetches = 2),
     ("larger cells", |s| s.method.cell = 2),
@@ -337,6 +329,14 @@ const KINDS: [(&str, Change); 93] = [
     ("an iso-surface in front of a checker", |s| {
         (s.surface.iso, s.effects.behind) = (Some(90.0), Some("checker".into()));
         s.effects.background_squares = 5.0;
+    }),
+    ("the texture unit in an orthographic view", |s| {
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        (s.sampling.termination, s.camera.height) = (1.0, Some(1.1));
+    }),
+    ("the texture unit, and a mesh that clips as in the thesis", |s| {
+        (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);
+        (s.sampling.termination, s.clips) = (1.0, vec![clip(0.4, Keep::Thesis)]);
     }),
 ];
 
