@@ -1,5 +1,5 @@
 // Rays of the view and where they meet the volume's box, in single floats: ray.glsl where those are good enough. Twin:
-// src/math/ray.rs; src/scene/single_rays.rs has what is below, and how far it may be off. `precise` lets all shaders find the same rays.
+// src/math/ray.rs; src/scene/single_rays.rs makes the numbers and bounds the error. `precise` lets all shaders find the same rays.
 // Needs frame.glsl.
 
 #ifndef COMPUTE
@@ -37,7 +37,7 @@ ViewRay view_ray(vec2 pixel) {
     return ViewRay(place, place_low, heading);
 }
 
-// `pixel` is that of the ray.
+// The interval of a ray. Nothing of it follows from the pixel; ray.glsl, whose function this stands for, cuts it at planes there.
 Interval box_interval(vec2 pixel, ViewRay ray) {
     // As if the ray went up on every axis: where it goes down, all is seen from the other side.
     uvec3 down = floatBitsToUint(ray.heading) & 0x80000000u;

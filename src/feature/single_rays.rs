@@ -23,7 +23,7 @@ fn needed(context: &Context) -> Result<(), Why> {
     if !along_rays || !whole || !bounded {
         return Err(Why::Untold);
     }
-    // Shaders that interpolate keep places to a part of a voxel that single floats of the whole volume do not tell.
+    // Shaders that interpolate keep places to 2^-22 voxels, which a single float of a place in the whole volume does not tell.
     if scene.settings.sampling.filter != Filter::Hardware {
         return Err(Why::Untold);
     }
