@@ -1,5 +1,5 @@
 // Slices of the volume, cut here [Thesis §3.4.2]: corner by corner of the polygon in which a plane meets the box around the volume, in
-// the order of their angles. The host form is src/scene/slices.rs. The depth comes from the viewport, as in box.vert.
+// the order of their angles. The host form is src/scene/slice_polygons.rs. The depth comes from the viewport, as in box.vert.
 //
 // What clip planes cut off, and what is before the near plane, is dropped by the fragment shader. Corners are found anew wherever they are
 // asked for: llvmpipe of Mesa 22.3 crashes in vertex shaders with arrays that are indexed by what they compute.

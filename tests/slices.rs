@@ -6,8 +6,8 @@ use depthleap::part::rows::Method;
 use depthleap::plan::{Plan, plan};
 use depthleap::read;
 use depthleap::scene::settings::{Accumulate, Alpha, ClipSettings, Last, MethodName, Offset, SliceCut};
-use depthleap::scene::slice_polygons::CutPlanes;
-use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack};
+use depthleap::scene::slice_polygons::{CutPlanes, SlicePolygons};
+use depthleap::scene::slices::{MOST, SliceSurface, Slices, Stack, within};
 use depthleap::scene::{Scene, Settings};
 
 fn scene(change: impl FnOnce(&mut Settings)) -> Scene {
@@ -250,5 +250,60 @@ fn spheres_are_not_cut_by_the_vertex_shader() {
             scene
         });
         assert_eq!(refused.is_err(), row.stack() == Some(Stack::Shells), "{}", row.name);
+    }
+}
+
+/// Pixels that the polygons of a slice have to reach beyond what shows: rasterisers move corners to a raster of 1/16 pixel or a finer one.
+const RASTER: f64 = 1.0 / 16.0;
+
+/// Whether some triangle of a slice covers a place of the picture, in pixels.
+fn covered(polygons: &SlicePolygons, slice: u32, size: [u32; 2], at: [f64; 2]) -> bool {
+    let place = |[x, y, w, _]: [f32; 4]| {
+        let on = |c: f32, axis: usize| (f64::from(c / w) + 1.0) * 0.5 * f64::from(size[axis]) - at[axis];
+        [on(x, 0), on(y, 1)]
+    };
+    polygons.corners.chunks_exact(3).filter(|corners| corners[0][3] == slice as f32).any(|corners| {
+        let corners: Vec<[f64; 2]> = corners.iter().copied().map(place).collect();
+        let turn = |i: usize| {
+            let ([ax, ay], [bx, by]) = (corners[i], corners[(i + 1) % 3]);
+            ax * by - ay * bx
+        };
+        let turns = [turn(0), turn(1), turn(2)];
+        turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0)
+    })
+}
+
+/// The places of a slice that a view shows and its polygons do not cover with the raster's margin, and how many it shows.
+fn uncovered(scene: &Scene, slices: &Slices, polygons: &SlicePolygons) -> (Vec<String>, usize) {
+    let (size, rays) = (scene.settings.image.size, scene.camera.rays(scene.settings.image.size).unwrap());
+    let (mut missed, mut shown) = (Vec::new(), 0);
+    let pixels = (0..size[0]).flat_map(|column| (0..size[1]).map(move |row| [column, row]));
+    for ([column, row], slice) in pixels.flat_map(|pixel| (0..slices.count).map(move |slice| (pixel, slice))) {
+        let ray = rays.of(column, row);
+        let depth = slices.depth(&ray, slice);
+        if depth.is_nan() || depth < rays.near || within(scene, ray.at(depth), 0.0) < 0.0 {
+            continue;
+        }
+        shown += 1;
+        let beside = [[0.0, 0.0], [RASTER, 0.0], [-RASTER, 0.0], [0.0, RASTER], [0.0, -RASTER]];
+        let at = |by: [f64; 2]| [f64::from(column) + 0.5 + by[0], f64::from(row) + 0.5 + by[1]];
+        if !beside.into_iter().all(|by| covered(polygons, slice, size, at(by))) {
+            missed.push(format!("slice {slice} at pixel {column}, {row}"));
+        }
+    }
+    (missed, shown)
+}
+
+#[test]
+fn polygons_cover_all_that_shows_of_slices_whatever_the_near_plane_cuts() {
+    // From outside, and from within, where slices go through the near plane.
+    for (eye, target) in [([0.9, 0.6, 1.5], [0.0; 3]), ([0.11, 0.07, -0.13], [-0.3, 0.2, 0.4])] {
+        for (method, height) in slicers().flat_map(|method| [(method, None), (method, Some(1.3))]) {
+            let mut scene = scene(|s| (s.camera.eye, s.camera.target, s.camera.height) = (eye, target, height));
+            scene.settings.method.name = method.name();
+            let view = plan(&scene, method.papers).unwrap().view;
+            let (missed, shown) = uncovered(&scene, view.slices.as_ref().unwrap(), view.slice_polygons(&scene));
+            assert!(missed.is_empty() && shown > 1000, "{} from {eye:?}, {height:?}: {shown}, {missed:?}", method.name);
+        }
     }
 }

@@ -102,17 +102,18 @@ impl Cutter {
     fn new(scene: &Scene) -> Result<Self> {
         let frustum = Frustum::new(scene)?;
         let (rays, half) = (&frustum.rays, 0.5 * scene.field.extent());
+        let pixel = rays.right.length().max(rays.down.length());
+        let pixels_at = |depth: f64| SLACK + MARGIN * pixel * if rays.parallel() { 1.0 } else { depth };
         // Pixels are largest far away.
-        let deepest = if rays.parallel() { 1.0 } else { rays.deepest(-half, half) };
-        let margin = SLACK + MARGIN * deepest * rays.right.length().max(rays.down.length());
+        let margin = pixels_at(rays.deepest(-half, half));
         let face = |i: usize| {
             let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
             HalfSpace { normal: sign * DVec3::AXES[i / 2], distance: -half[i / 2] }
         };
         let grown = |space: HalfSpace| HalfSpace { distance: space.distance - margin * space.normal.length(), ..space };
         let kept = (0..6).map(face).chain(scene.clip_planes().iter().copied()).map(grown);
-        // Of a slice at the near plane nothing is to be cut off.
-        let near = HalfSpace { distance: frustum.near().distance - SLACK, ..frustum.near() };
+        // Of a slice at the near plane nothing is to be cut off, and of one across it no pixel.
+        let near = HalfSpace { distance: frustum.near().distance - pixels_at(rays.near), ..frustum.near() };
         let spaces = kept.chain([near]).chain(frustum.sides()).collect();
         Ok(Self { frustum, spaces, half: half + margin })
     }

@@ -17,6 +17,7 @@ use depthleap::projection::{self, Ends};
 use depthleap::resource;
 use depthleap::scene::Scene;
 use depthleap::scene::settings::{DepthFormat, Filter, Formats};
+use depthleap::scene::slices::Stack;
 use depthleap::vulkan::{Device, vk};
 
 use super::compare::{SAME_SUM, counts, difference, held, same_counts, same_picture};
@@ -44,7 +45,11 @@ const UNDECIDED: u64 = 4;
 const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 
 /// The same of shells, where two of them, or a shell and a surface, may be at one depth.
-const UNDECIDED_OF_SHELLS: u64 = 40;
+const UNDECIDED_OF_SHELLS: u64 = 64;
+
+/// The same of slices at textures by who looks ahead: they lie in faces between cells, and whether it is the cell before or behind that
+/// says what can be skipped, rounding decides. What shows is the rule's to the bit either way.
+const UNDECIDED_IN_FACES: u64 = 256;
 
 /// Pixels on the outline of the box that the rasteriser may leave undecided: none from within, from outside some fifteen on
 /// a raster of 1/16 pixel.
@@ -205,6 +210,9 @@ impl Runs<'_> {
 fn most_undecided(scene: &Scene, method: &Method) -> u64 {
     if !method.takes_samples() {
         return UNDECIDED_OF_SHELLS;
+    }
+    if method.looks_ahead() && method.stack() == Some(Stack::Objects) && !scene.settings.method.between {
+        return UNDECIDED_IN_FACES;
     }
     // A loop asks after every sample whether the ray has ended, and from each surface along the ways of light what they meet; f32
     // cannot tell each time.
