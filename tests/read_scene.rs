@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use depthleap::method::{self, SINGLE_PASS};
 use depthleap::read;
-use depthleap::scene::settings::{Refine, TransferSettings};
+use depthleap::scene::settings::{ReferenceUnit, Refine, TransferSettings};
 use depthleap::scene::transfer::TransferFunction;
 use depthleap::scene::{Settings, scenes};
 use tempfile::TempDir;
@@ -273,4 +273,34 @@ fn built_in_scenes_are_whole_and_their_forms_name_their_volume() {
     }
     let bad = read::settings_of("here", "[camera]\nye = 1", Path::new("")).unwrap_err().to_string();
     assert!(bad.contains("here, line 2") && bad.contains("eye"), "{bad}");
+}
+
+#[test]
+fn a_reference_length_may_be_a_part_of_the_volume() {
+    let scene = |dims: &str, reference: f64, unit: ReferenceUnit| {
+        let mut settings = Settings::default();
+        settings.volume.builtin = Some(format!("shells:{dims}"));
+        (settings.transfer.reference, settings.transfer.reference_unit) = (reference, unit);
+        read::scene(&settings)
+    };
+    let voxels = |dims: &str, unit| scene(dims, 0.125, unit).unwrap().transfer.reference;
+    assert_eq!(voxels("16x12x10", ReferenceUnit::Voxel), 0.125);
+    assert_eq!(voxels("16x12x10", ReferenceUnit::Volume), 2.0);
+    assert_eq!(voxels("32x24x20", ReferenceUnit::Volume), 4.0);
+    let error = scene("16", 1e-6, ReferenceUnit::Volume).map(drop);
+    assert!(error.is_ok(), "{error:?}");
+    let error = scene("16", 1e5, ReferenceUnit::Volume).map(drop).unwrap_err().to_string();
+    assert!(error.contains("--reference") && error.contains("voxels"), "{error}");
+}
+
+#[test]
+fn a_file_with_a_reference_length_has_it_in_voxels() {
+    let (folder, _path) = file("map.json", "{\"points\": [[0, 1, 1, 1, 0]], \"reference\": 3}");
+    let settings = TransferSettings {
+        file: Some("map.json".into()),
+        reference_unit: ReferenceUnit::Volume,
+        ..TransferSettings::default()
+    };
+    let error = read::transfer(&settings, folder.path()).unwrap_err().to_string();
+    assert!(error.contains("map.json") && error.contains("another unit"), "{error}");
 }

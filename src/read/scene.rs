@@ -118,6 +118,7 @@ pub fn scene_of<C: Into<Content>>(settings: &Settings, content: impl FnOnce(&Set
     let transfer = super::transfer(&settings.transfer, Path::new(""))?;
     let effect = super::effect(&settings.effects)?.map(Arc::new);
     let (field, tetrahedra) = field_of(content(settings)?.into(), &settings.volume)?;
+    let transfer = super::transfer::in_voxels(transfer, settings.transfer.reference_unit, &field)?;
     let turn = field.volume.turn;
     let camera = camera.in_axes_of(turn);
     let polygons = Arc::new(polygons(settings, turn)?);

@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::scene::Field;
 use crate::scene::builtin::nearest;
-use crate::scene::settings::TransferSettings;
-use crate::scene::transfer::{DEFAULT_PRESET, Knot, PRESETS, TransferFunction};
+use crate::scene::settings::{ReferenceUnit, TransferSettings};
+use crate::scene::transfer::{DEFAULT_PRESET, Knot, PRESETS, REFERENCES, TransferFunction};
 
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -15,7 +16,7 @@ struct TransferFile {
     reference: Option<f64>,
 }
 
-/// The transfer function of `settings`; a file's path is relative to `base`.
+/// The transfer function of `settings`, its reference length as it stands there; a file's path is relative to `base`.
 ///
 /// # Errors
 /// When more than one of preset, file and points is given, the preset is unknown, the file cannot be read, or the
@@ -24,7 +25,7 @@ pub fn transfer(settings: &TransferSettings, base: &Path) -> Result<TransferFunc
     match (&settings.preset, &settings.file, &settings.points) {
         (None, None, None) => preset(DEFAULT_PRESET, settings.reference),
         (Some(name), None, None) => preset(name, settings.reference),
-        (None, Some(path), None) => file(&base.join(path), settings.reference),
+        (None, Some(path), None) => file(&base.join(path), settings),
         (None, None, Some(points)) => TransferFunction::new("points", knots(points), settings.reference),
         _ => Err(Error::usage("transfer", "has more than one of preset, file and points", "keep one of them")),
     }
@@ -42,8 +43,30 @@ fn preset(name: &str, reference: f64) -> Result<TransferFunction> {
     })
 }
 
-/// A reference length in the file counts, unless the settings state another one: then neither is guessed.
-fn file(path: &Path, stated: f64) -> Result<TransferFunction> {
+/// The same with its reference length in voxels of a volume, from the unit that it was given in.
+///
+/// # Errors
+/// When the volume's voxels make no length of [`REFERENCES`] of it.
+pub fn in_voxels(mut transfer: TransferFunction, unit: ReferenceUnit, field: &Field) -> Result<TransferFunction> {
+    let voxels = match unit {
+        ReferenceUnit::Voxel => return Ok(transfer),
+        // The longest side is 1 in volume space.
+        ReferenceUnit::Volume => transfer.reference / field.finest(),
+    };
+    if !REFERENCES.contains(voxels) {
+        return Err(Error::usage(
+            "transfer.reference (--reference)",
+            format!("{} of the volume's longest side is a length of {voxels} voxels", transfer.reference),
+            REFERENCES.remedy(),
+        ));
+    }
+    transfer.reference = voxels;
+    Ok(transfer)
+}
+
+/// A reference length in the file counts, which is one in voxels, unless the settings state another one: then neither is guessed.
+fn file(path: &Path, settings: &TransferSettings) -> Result<TransferFunction> {
+    let (stated, unit) = (settings.reference, settings.reference_unit);
     let file: TransferFile = serde_json::from_str(&super::text(path)?).map_err(|e| {
         let message = e.to_string();
         let place = format!(" at line {} column {}", e.line(), e.column());
@@ -54,6 +77,10 @@ fn file(path: &Path, stated: f64) -> Result<TransferFunction> {
     let reference = match file.reference {
         Some(own) if stated != default && stated != own => {
             let problem = format!("has the reference length {own}, the settings {stated}");
+            return Err(Error::input(path.display(), problem, "remove one of them"));
+        }
+        Some(own) if unit != ReferenceUnit::Voxel => {
+            let problem = format!("has the reference length {own}, in voxels, the settings one in another unit");
             return Err(Error::input(path.display(), problem, "remove one of them"));
         }
         Some(own) => own,

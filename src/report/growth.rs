@@ -14,6 +14,8 @@ const NANOSECONDS: f64 = 1e6;
 /// Times of the methods that were run on all of the scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
+    /// The built-in volume that all of them show, in several sizes; none of files.
+    pub object: Option<String>,
     pub clock: Clock,
     /// Each with the segments that show something, rising.
     pub scenes: Vec<(String, u64)>,
@@ -51,7 +53,12 @@ impl Line {
     }
 }
 
-/// Whether two runs differ in volume and method only.
+/// The built-in volume of a run without its size.
+fn object(run: &Run) -> Option<&str> {
+    run.settings.volume.builtin.as_deref()?.split(':').next()
+}
+
+/// Whether two runs differ in method and volume only, and built-in volumes in nothing but their sizes.
 fn alike_but_for_volume(a: &Run, b: &Run) -> bool {
     let free = |run: &Run| {
         let mut run = run.clone();
@@ -59,7 +66,7 @@ fn alike_but_for_volume(a: &Run, b: &Run) -> bool {
         run.settings.volume = Default::default();
         run
     };
-    comparable(&free(a), &free(b))
+    object(a) == object(b) && comparable(&free(a), &free(b))
 }
 
 fn ideal(group: &RunGroup) -> Option<u64> {
@@ -67,7 +74,7 @@ fn ideal(group: &RunGroup) -> Option<u64> {
 }
 
 impl Growth {
-    /// Of all scenes of the groups that differ in their volumes only; none of fewer than three.
+    /// Of all scenes of the groups that differ in their volumes only, of built-in ones in their sizes; none of fewer than three.
     pub fn all(groups: &[RunGroup]) -> Vec<Self> {
         let mut sets: Vec<Vec<&RunGroup>> = Vec::new();
         for group in groups.iter().filter(|group| ideal(group).is_some()) {
@@ -103,7 +110,8 @@ impl Growth {
         };
         let rows: Vec<GrowthRow> =
             groups[0].runs.iter().filter(|(_, run)| run.method != "cpu").filter_map(row).collect();
-        (!rows.is_empty()).then_some(Self { clock, scenes, rows })
+        let object = object(groups[0].first()).map(str::to_owned);
+        (!rows.is_empty()).then_some(Self { object, clock, scenes, rows })
     }
 
     /// A method, its line, and its times by the segments that show something.

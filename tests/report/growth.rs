@@ -49,6 +49,16 @@ fn a_line_is_found_where_there_is_one() {
 }
 
 #[test]
+fn each_built_in_volume_has_lines_of_its_own() {
+    let sizes = [("64", 10_000), ("128", 80_000), ("256", 640_000)];
+    let of = |object: &str| sizes.map(|(size, segments)| scene(&format!("{object}:{size}"), segments)).concat();
+    let runs: Vec<Run> = [of("jets"), of("blocks"), scene("shells:64", 10), scene("shells:128", 20)].concat();
+    let found: Vec<_> =
+        Growth::all(&groups(&runs)).into_iter().map(|growth| (growth.object, growth.scenes.len())).collect();
+    assert_eq!(found, [(Some("jets".to_owned()), 3), (Some("blocks".to_owned()), 3)], "of shells there are two");
+}
+
+#[test]
 fn least_squares_of_three_points() {
     let line = Line::through(&[[0.0, 1.0], [1.0, 1.0], [2.0, 4.0]]);
     // By hand: slope 3/2, mean 2 at 1; it explains 4.5 of 6.

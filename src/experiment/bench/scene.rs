@@ -87,12 +87,14 @@ pub fn section(
 /// When a plot cannot be drawn.
 pub fn growth(page: &mut Html, growth: &Growth) -> Result<()> {
     page.raw("<section>\n");
-    page.tag("h2", "Time against what shows");
+    let of = growth.object.as_ref().map_or_else(String::new, |object| format!(": {object}"));
+    page.tag("h2", &format!("Time against what shows{of}"));
     page.plot(
         &growth_svg(growth)?,
         "Time of a frame against the segments that show something",
         "A mark for each scene, which are the same but for their volumes; lines are those of least squares. Where time follows what shows, and not \
-         the size of the volume, marks lie on their line.",
+         the size of the volume, marks lie on their line. Opacities of an object that is sampled more finely stay what they are by \
+         --reference-unit volume.",
     );
     page.table(&growth.table());
     let names: Vec<&str> = growth.scenes.iter().map(|(name, _)| name.as_str()).collect();

@@ -60,6 +60,7 @@ pub use sampling::{Alpha, Classification, EXTRA_FETCHES, ErrorNorm, Filter, Last
 pub use shading::{GradientOperator, GradientTexture, Gradients};
 pub use shells::{MOST_LEVELS, ShellMode, ShellOrder, ShellSum};
 pub use surface::{Find, MOST_SURFACES, Refine, Shows, SurfaceLevel};
+pub use transfer::ReferenceUnit;
 pub use tuned::LeftOpen;
 pub use volume::{RAW_SKIP, RAW_SPACING, VolumeTexture};
 

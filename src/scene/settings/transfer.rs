@@ -2,9 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use super::section::section;
 use crate::scene::fixed;
 use crate::scene::transfer::{DEFAULT_PRESET, PRESETS, REFERENCES};
+
+/// What reference lengths are measured in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum ReferenceUnit {
+    /// Voxels of the finest spacing: the same object, sampled more finely, is more opaque.
+    #[default]
+    Voxel,
+    /// The longest side of the volume, whatever its voxels are.
+    Volume,
+}
 
 section! {
     /// Which colour and opacity a value has; of preset, file and points there is one at the most.
@@ -28,9 +41,13 @@ section! {
     #[arg(skip)]
     points?: Vec<[f64; 5]>;
 
-    /// Length an opacity stands for, in voxels of the finest spacing
-    #[arg(long, value_name = "VOXELS", allow_negative_numbers = true)]
+    /// Length an opacity stands for, by its unit
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     reference: f64 = 1.0, within REFERENCES;
+
+    /// Unit of the reference length
+    #[arg(long, value_name = "UNIT")]
+    reference_unit: ReferenceUnit = ReferenceUnit::Voxel;
 
     options {
         /// Transfer function: one of [`PRESETS`], or a file; takes the place of preset, file and points
@@ -50,7 +67,11 @@ fn help_of_tf() -> String {
 impl TransferOptions {
     fn apply_others(&self, settings: &mut TransferSettings) {
         let Some(tf) = &self.tf else { return };
-        *settings = TransferSettings { reference: settings.reference, ..TransferSettings::default() };
+        *settings = TransferSettings {
+            reference: settings.reference,
+            reference_unit: settings.reference_unit,
+            ..TransferSettings::default()
+        };
         // What is neither a preset nor looks like a file is a preset with a typing error.
         let file = tf.contains(['.', '/']) || Path::new(tf).exists();
         if file && !PRESETS.contains(&tf.as_str()) {

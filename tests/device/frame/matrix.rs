@@ -47,8 +47,8 @@ const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 /// The same of shells, where two of them, or a shell and a surface, may be at one depth.
 const UNDECIDED_OF_SHELLS: u64 = 64;
 
-/// The same of slices at textures by who looks ahead: they lie in faces between cells, and whether it is the cell before or behind that
-/// says what can be skipped, rounding decides. What shows is the rule's to the bit either way.
+/// The same of slices across an axis of the volume: some lie in faces between voxels or cells, and rounding decides whose values samples
+/// have without interpolation, or who says what can be skipped. What is skipped shows nothing either way: pictures are the rule's to the bit.
 const UNDECIDED_IN_FACES: u64 = 256;
 
 /// Pixels on the outline of the box that the rasteriser may leave undecided: none from within, from outside some fifteen on
@@ -211,7 +211,8 @@ fn most_undecided(scene: &Scene, method: &Method) -> u64 {
     if !method.takes_samples() {
         return UNDECIDED_OF_SHELLS;
     }
-    if method.looks_ahead() && method.stack() == Some(Stack::Objects) && !scene.settings.method.between {
+    let by_cells = method.looks_ahead() || scene.settings.sampling.filter == Filter::Nearest;
+    if by_cells && method.stack() == Some(Stack::Objects) {
         return UNDECIDED_IN_FACES;
     }
     // A loop asks after every sample whether the ray has ended, and from each surface along the ways of light what they meet; f32
