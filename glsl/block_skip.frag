@@ -27,20 +27,21 @@
 #include "shared/projection.glsl"
 
 bool segment_visible(Ray ray, uint first, uint end) {
-    for (uint i = first; i < end;) {
+    if (first >= end) {
+        return false;
+    }
+    uint i = first;
+    bool visible;
+    do {
         Place place = place_of(ray, i);
         ivec3 block = cell_of(place) / BLOCK;
-        if (block_visible(block)) {
-            return true;
-        }
+        visible = block_visible(block);
         // Those that follow lie in the same block.
         i += samples_in_block(ray, place, block);
-        if (SPANS && i < end && way_visible(ray, i)) {
-            return true;
-        }
+        visible = visible || SPANS && i < end && way_visible(ray, i);
         ++i;
-    }
-    return false;
+    } while (!visible && i < end);
+    return visible;
 }
 
 void main() {

@@ -22,9 +22,11 @@ vec4 shown_surface(Line line, int level, uvec4 corners, float depth) {
 // Within how many surfaces x is.
 int levels_around(float x) {
     int within = 0;
-    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
-        within += int(x >= x_of(surface_levels.list[i].from));
-    }
+    int level = surface_levels.list.length();
+    do {
+        --level;
+        within += int(x >= x_of(surface_levels.list[level].from));
+    } while (level > 0);
     return within;
 }
 
@@ -43,20 +45,22 @@ vec4 through_surfaces(Line line, uvec4 corners, bool begins, vec2 from, vec2 to)
     int crossed = abs(rise);
     vec4 light = vec4(0.0);
     vec2 at = from;
-    // A loop and no condition around what lights do: most cells have no surface, and some drivers leave out of loops alone what no
-    // invocation needs.
-    for (int left_over = crossed + int(begins && within > 0); left_over > 0; --left_over) {
-        bool first = left_over > crossed;
-        int passed = crossed - left_over;
-        int level = first || rise < 0 ? within - 1 - max(passed, 0) : within + passed;
-        float x = first ? from.y : x_of(surface_levels.list[level].from);
-        float share = first ? 0.0 : clamp((x - from.y) / (to.y - from.y), 0.0, 1.0);
-        vec2 place = vec2(mix(from.x, to.x, share), x);
+    int left_over = crossed + int(begins && within > 0);
+    if (left_over > 0) {
+        do {
+            bool first = left_over > crossed;
+            int passed = crossed - left_over;
+            int level = first || rise < 0 ? within - 1 - max(passed, 0) : within + passed;
+            float x = first ? from.y : x_of(surface_levels.list[level].from);
+            float share = first ? 0.0 : clamp((x - from.y) / (to.y - from.y), 0.0, 1.0);
+            vec2 place = vec2(mix(from.x, to.x, share), x);
 #ifdef IN_VOLUME
-        light = composite(light, volume_between(line, at, place));
+            light = composite(light, volume_between(line, at, place));
 #endif
-        light = composite(light, shown_surface(line, level, corners, place.x));
-        at = place;
+            light = composite(light, shown_surface(line, level, corners, place.x));
+            at = place;
+            --left_over;
+        } while (left_over > 0);
     }
 #ifdef IN_VOLUME
     light = composite(light, volume_between(line, at, to));

@@ -25,13 +25,13 @@ uint next_section(Ray ray, uint section) {
     if (i >= end) {
         return frame.passes;
     }
-    for (uint looked = 0u; looked < LOOKUPS && i < end; ++looked) {
-        uint free = free_from(ray, i);
-        if (free == 0u) {
-            break;
-        }
+    uint looked = 0u;
+    uint free;
+    do {
+        free = free_from(ray, i);
         i += free;
-    }
+        ++looked;
+    } while (free > 0u && looked < LOOKUPS && i < end);
     bool gone = EXIT_LOOKAHEAD && i >= ray.samples;
     return gone ? frame.passes : min(i / SAMPLES_PER_PASS, frame.passes);
 }

@@ -34,7 +34,8 @@ vec3 lit(vec3 color, vec3 gradient, vec3 point, vec3 view) {
     vec3 normal = steepest > 0.0 ? normalize(gradient / steepest) : vec3(0.0);
     normal = dot(normal, view) < 0.0 ? -normal : normal;
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < lights.rows.length() / LIGHT_ROWS; ++i) {
+    int i = 0;
+    do {
         vec4 place = lights.rows[i * LIGHT_ROWS];
         vec4 parts = lights.rows[i * LIGHT_ROWS + 1];
         vec3 ambient = WHITE_LIGHTS ? parts.xxx : parts.rgb;
@@ -57,6 +58,7 @@ vec3 lit(vec3 color, vec3 gradient, vec3 point, vec3 view) {
         reflected = mix(reflected, color * diffuse * through, THROUGH);
 #endif
         sum += reflected;
-    }
+        ++i;
+    } while (i < lights.rows.length() / LIGHT_ROWS);
     return sum;
 }

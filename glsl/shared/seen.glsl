@@ -91,16 +91,16 @@ struct Turn {
 };
 
 Turn turn(Seen from, Seen to) {
-    // By the numbers, so that both directions of an edge give opposite answers.
+    vec2 p = two_product(from.place.x, to.place.y);
+    vec2 q = two_product(from.place.y, to.place.x);
+    precise float area = (p.x - q.x) + (p.y - q.y);
+    // Of two vertices in a row with the line: by the numbers, so that both directions of an edge give opposite answers. It is what the
+    // area grows by as the one of the lower number moves along each axis, then as the other does; as both do it falls.
     bool swapped = from.number > to.number;
     vec2 a = swapped ? to.place : from.place;
     vec2 b = swapped ? from.place : to.place;
-    vec2 p = two_product(a.x, b.y);
-    vec2 q = two_product(a.y, b.x);
-    precise float area = (p.x - q.x) + (p.y - q.y);
-    // What the area grows by as `a` moves along each axis, then as `b` does; as both do it falls.
     float moved = b.y != 0.0 ? b.y : b.x != 0.0 ? -b.x : a.y != 0.0 ? -a.y : a.x;
     // Products are rounded in their order.
-    bool left = p.x != q.x ? p.x > q.x : p.y != q.y ? p.y > q.y : moved > 0.0;
-    return Turn(swapped ? -area : area, left != swapped);
+    bool left = p.x != q.x ? p.x > q.x : p.y != q.y ? p.y > q.y : moved > 0.0 != swapped;
+    return Turn(area, left);
 }

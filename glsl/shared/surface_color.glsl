@@ -26,7 +26,8 @@ Meeting meet(Ray ray, vec2 between) {
     // The first value of a surface on the way from one to the other.
     bool rises = front < back;
     float met = 0.0;
-    for (int i = 0; i < surface_levels.list.length(); ++i) {
+    int i = 0;
+    do {
         SurfaceLevel one = surface_levels.list[i];
         float value = rises ? one.from : one.to;
         bool ahead = rises ? value > front : value < front;
@@ -34,7 +35,8 @@ Meeting meet(Ray ray, vec2 between) {
             level = i;
             met = value;
         }
-    }
+        ++i;
+    } while (i < surface_levels.list.length());
     if (level < 0 || REFINE == NONE) {
         return Meeting(between.y, max(level, 0));
     }

@@ -29,16 +29,21 @@ bool way_visible(Ray ray, uint i) {
 #endif
     ivec3 low = min(front, back);
     ivec3 high = max(front, back);
-    for (int z = low.z; z <= high.z; ++z) {
-        for (int y = low.y; y <= high.y; ++y) {
-            for (int x = low.x; x <= high.x; ++x) {
-                if (block_visible(ivec3(x, y, z))) {
-                    return true;
-                }
-            }
+    ivec3 block = low;
+    bool visible;
+    do {
+        visible = block_visible(block);
+        ++block.x;
+        if (block.x > high.x) {
+            block.x = low.x;
+            ++block.y;
         }
-    }
-    return false;
+        if (block.y > high.y) {
+            block.y = low.y;
+            ++block.z;
+        }
+    } while (!visible && block.z <= high.z);
+    return visible;
 }
 
 // Samples after the one at `place`, in `block`, that lie in the same block, as far as f32 can tell.
