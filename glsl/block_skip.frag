@@ -27,20 +27,22 @@
 #include "shared/projection.glsl"
 
 bool segment_visible(Ray ray, uint first, uint end) {
-    if (first >= end) {
-        return false;
-    }
-    uint i = first;
-    bool visible;
-    do {
+    bool visible = false;
+    // Asked at the end as well: segment.glsl.
+    for (uint i = first; !visible && i < end;) {
         Place place = place_of(ray, i);
         ivec3 block = cell_of(place) / BLOCK;
         visible = block_visible(block);
         // Those that follow lie in the same block.
         i += samples_in_block(ray, place, block);
-        visible = visible || SPANS && i < end && way_visible(ray, i);
+        if (SPANS && i < end) {
+            visible = visible || way_visible(ray, i);
+        }
         ++i;
-    } while (!visible && i < end);
+        if (visible || i >= end) {
+            break;
+        }
+    }
     return visible;
 }
 

@@ -63,12 +63,14 @@ vec4 segment_color(Ray ray, inout uint at) {
     vec4 segment = vec4(0.0);
     AdaptiveWay way = begin_way(ray, at);
     uint left_over = SAMPLES_PER_PASS;
-    if (goes_on(ray, way)) {
-        do {
-            left_over -= way.lengths > 0.0 ? 0u : 1u;
-            segment = composite(segment, adaptive_part(ray, way));
-            // Nothing passes through what is opaque, whatever is left of its step.
-        } while (way.lengths > 0.0 ? segment.a < 1.0 : left_over > 0u && goes_on(ray, way));
+    // Nothing passes through what is opaque, whatever is left of its step.
+    while (segment.a < 1.0 && way.lengths > 0.0 || left_over > 0u && way.lengths <= 0.0 && float(way.at) < ray.steps) {
+        left_over -= way.lengths > 0.0 ? 0u : 1u;
+        segment = composite(segment, adaptive_part(ray, way));
+        // Asked at the end as well: segment.glsl.
+        if (way.lengths > 0.0 ? segment.a >= 1.0 : left_over == 0u || float(way.at) >= ray.steps) {
+            break;
+        }
     }
     at = way.at;
     return segment;

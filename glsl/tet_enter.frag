@@ -55,23 +55,23 @@ void main() {
 #endif
     bool shown = false;
     vec2 at = vec2(0.0);
-    if (!found && face != NO_FACE) {
-        int looked = 0;
-        do {
-            Entrance entrance = entrance_by(line, face);
-            if (!any(entrance.lefts)) {
-                found = true;
-                shown = true;
-                at = entrance.way.at;
-            } else if (entrance.way.areas.x + entrance.way.areas.y + entrance.way.areas.z >= 0.0) {
-                // Its back is seen: the ray passes beside the mesh.
-                found = true;
-            } else {
-                uvec4 beside = tet_boundary.list[2u * face + 1u];
-                face = entrance.lefts.x ? beside.x : entrance.lefts.y ? beside.y : beside.z;
-            }
-            ++looked;
-        } while (looked < MOST_FACES && !found && face != NO_FACE);
+    for (int i = 0; i < MOST_FACES && !found && face != NO_FACE; ++i) {
+        Entrance entrance = entrance_by(line, face);
+        if (!any(entrance.lefts)) {
+            found = true;
+            shown = true;
+            at = entrance.way.at;
+        } else if (entrance.way.areas.x + entrance.way.areas.y + entrance.way.areas.z >= 0.0) {
+            // Its back is seen: the ray passes beside the mesh.
+            found = true;
+        } else {
+            uvec4 beside = tet_boundary.list[2u * face + 1u];
+            face = entrance.lefts.x ? beside.x : entrance.lefts.y ? beside.y : beside.z;
+        }
+        // Asked at the end as well: shared/segment.glsl.
+        if (found || face == NO_FACE) {
+            break;
+        }
     }
     float near = nearness(at.x);
     float number = float(face) + 1.0;

@@ -146,17 +146,17 @@ Part part_from(float at, float back, float left_over) {
 // Premultiplied colour and opacity of a way of so many reference lengths on which x goes evenly from `front` to `back`.
 vec4 cell_integral(float front, float back, float lengths) {
     vec4 light = vec4(0.0);
-    if (lengths > 0.0) {
-        float at = front;
-        float left_over = lengths;
-        int parts = 0;
-        do {
-            Part part = part_from(at, back, left_over);
-            light = composite(light, part.light);
-            at = part.to;
-            left_over = part.share >= 1.0 ? 0.0 : left_over * (1.0 - part.share);
-            ++parts;
-        } while (parts < MOST_PARTS && left_over > 0.0 && light.a < 1.0 - BLACK);
+    float at = front;
+    float left_over = lengths;
+    // Asked at the end as well: segment.glsl.
+    for (int i = 0; i < MOST_PARTS && left_over > 0.0; ++i) {
+        Part part = part_from(at, back, left_over);
+        light = composite(light, part.light);
+        at = part.to;
+        left_over = part.share >= 1.0 ? 0.0 : left_over * (1.0 - part.share);
+        if (left_over <= 0.0 || light.a >= 1.0 - BLACK) {
+            break;
+        }
     }
     return light;
 }

@@ -22,11 +22,9 @@ vec4 shown_surface(Line line, int level, uvec4 corners, float depth) {
 // Within how many surfaces x is.
 int levels_around(float x) {
     int within = 0;
-    int level = surface_levels.list.length();
-    do {
-        --level;
-        within += int(x >= x_of(surface_levels.list[level].from));
-    } while (level > 0);
+    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
+        within += int(x >= x_of(surface_levels.list[i].from));
+    }
     return within;
 }
 
@@ -45,22 +43,23 @@ vec4 through_surfaces(Line line, uvec4 corners, bool begins, vec2 from, vec2 to)
     int crossed = abs(rise);
     vec4 light = vec4(0.0);
     vec2 at = from;
-    int left_over = crossed + int(begins && within > 0);
-    if (left_over > 0) {
-        do {
-            bool first = left_over > crossed;
-            int passed = crossed - left_over;
-            int level = first || rise < 0 ? within - 1 - max(passed, 0) : within + passed;
-            float x = first ? from.y : x_of(surface_levels.list[level].from);
-            float share = first ? 0.0 : clamp((x - from.y) / (to.y - from.y), 0.0, 1.0);
-            vec2 place = vec2(mix(from.x, to.x, share), x);
+    // Asked at the end as well: segment.glsl.
+    for (int left_over = crossed + int(begins && within > 0); left_over > 0;) {
+        bool first = left_over > crossed;
+        int passed = crossed - left_over;
+        int level = first || rise < 0 ? within - 1 - max(passed, 0) : within + passed;
+        float x = first ? from.y : x_of(surface_levels.list[level].from);
+        float share = first ? 0.0 : clamp((x - from.y) / (to.y - from.y), 0.0, 1.0);
+        vec2 place = vec2(mix(from.x, to.x, share), x);
 #ifdef IN_VOLUME
-            light = composite(light, volume_between(line, at, place));
+        light = composite(light, volume_between(line, at, place));
 #endif
-            light = composite(light, shown_surface(line, level, corners, place.x));
-            at = place;
-            --left_over;
-        } while (left_over > 0);
+        light = composite(light, shown_surface(line, level, corners, place.x));
+        at = place;
+        --left_over;
+        if (left_over <= 0) {
+            break;
+        }
     }
 #ifdef IN_VOLUME
     light = composite(light, volume_between(line, at, to));

@@ -74,16 +74,18 @@ void cross_at(Ray ray, float steps, float value, bool up, inout int within, inou
 void cross_evenly(Ray ray, vec2 stretch, float front, float back, inout int within, inout Rest rest, inout vec4 held) {
     int to = surfaces_around(back);
     bool up = to > within;
-    if (within != to && !is_done(held)) {
-        do {
-            float level = surface_levels.list[up ? within : within - 1].from;
-            if (REFINE == LINEAR) {
-                float share = clamp((level - front) / (back - front), 0.0, 1.0);
-                cross_at(ray, mix(stretch.x, stretch.y, share), level, up, within, rest, held);
-            } else {
-                cross_at(ray, stretch.y, back, up, within, rest, held);
-            }
-        } while (within != to && !is_done(held));
+    while (within != to && !is_done(held)) {
+        float level = surface_levels.list[up ? within : within - 1].from;
+        if (REFINE == LINEAR) {
+            float share = clamp((level - front) / (back - front), 0.0, 1.0);
+            cross_at(ray, mix(stretch.x, stretch.y, share), level, up, within, rest, held);
+        } else {
+            cross_at(ray, stretch.y, back, up, within, rest, held);
+        }
+        // Asked at the end as well, here and below: segment.glsl.
+        if (within == to || is_done(held)) {
+            break;
+        }
     }
 }
 
@@ -144,22 +146,23 @@ void cross_in_cell(Ray ray, float begin, vec2 part, float corners[8], vec3 from,
 void cross_exactly(Ray ray, vec2 stretch, inout int within, inout Rest rest, inout vec4 held) {
     CellWalk walk = walk_from(ray, stretch.x);
     float length = stretch.y - stretch.x;
-    if (walk.at < length && !is_done(held)) {
-        do {
-            CellPart part = next_part(walk, length);
-            float corners[8];
-            corners_of(part.below, 0.0, corners);
-            float least = corners[0];
-            float most = corners[0];
-            for (int corner = 1; corner < 8; ++corner) {
-                least = min(least, corners[corner]);
-                most = max(most, corners[corner]);
-            }
-            float slack = INTERPOLATION_ROUNDING * max(abs(least), abs(most));
-            if (surfaces_around(least - slack) != within || surfaces_around(most + slack) != within) {
-                cross_in_cell(ray, stretch.x, part.steps, corners, part.from, part.to - part.from, within, rest, held);
-            }
-        } while (walk.at < length && !is_done(held));
+    while (walk.at < length && !is_done(held)) {
+        CellPart part = next_part(walk, length);
+        float corners[8];
+        corners_of(part.below, 0.0, corners);
+        float least = corners[0];
+        float most = corners[0];
+        for (int corner = 1; corner < 8; ++corner) {
+            least = min(least, corners[corner]);
+            most = max(most, corners[corner]);
+        }
+        float slack = INTERPOLATION_ROUNDING * max(abs(least), abs(most));
+        if (surfaces_around(least - slack) != within || surfaces_around(most + slack) != within) {
+            cross_in_cell(ray, stretch.x, part.steps, corners, part.from, part.to - part.from, within, rest, held);
+        }
+        if (walk.at >= length || is_done(held)) {
+            break;
+        }
     }
 }
 
@@ -171,10 +174,11 @@ void cross_between(Ray ray, vec2 stretch, float front, float back, inout Rest re
         // What rounding hides from the cubic and not from the value.
         int to = surfaces_around(back);
         bool up = to > within;
-        if (within != to && !is_done(held)) {
-            do {
-                cross_at(ray, stretch.y, back, up, within, rest, held);
-            } while (within != to && !is_done(held));
+        while (within != to && !is_done(held)) {
+            cross_at(ray, stretch.y, back, up, within, rest, held);
+            if (within == to || is_done(held)) {
+                break;
+            }
         }
     } else {
         cross_evenly(ray, stretch, front, back, within, rest, held);

@@ -36,11 +36,13 @@ float clear_to_light(vec3 point, vec3 normal, vec3 way, float reach) {
     for (float steps = 1.0; clear > 0.0 && at < length; ++steps) {
         at = min(steps / frame.inverse_step, length);
         int to = surfaces_around(value_at_point(fma(vec3(at), way, begin)));
-        if (within != to) {
-            do {
-                clear *= 1.0 - surface_levels.list[to > within ? within : within - 1].color.a;
-                within += to > within ? 1 : -1;
-            } while (within != to);
+        while (within != to) {
+            clear *= 1.0 - surface_levels.list[to > within ? within : within - 1].color.a;
+            within += to > within ? 1 : -1;
+            // Asked at the end as well: segment.glsl.
+            if (within == to) {
+                break;
+            }
         }
     }
     return clear;

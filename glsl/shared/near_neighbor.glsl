@@ -25,13 +25,15 @@ uint next_section(Ray ray, uint section) {
     if (i >= end) {
         return frame.passes;
     }
-    uint looked = 0u;
-    uint free;
-    do {
-        free = free_from(ray, i);
+    // Asked at the end as well: segment.glsl.
+    for (uint looked = 0u; looked < LOOKUPS && i < end;) {
+        uint free = free_from(ray, i);
         i += free;
         ++looked;
-    } while (free > 0u && looked < LOOKUPS && i < end);
+        if (free == 0u || looked >= LOOKUPS || i >= end) {
+            break;
+        }
+    }
     bool gone = EXIT_LOOKAHEAD && i >= ray.samples;
     return gone ? frame.passes : min(i / SAMPLES_PER_PASS, frame.passes);
 }

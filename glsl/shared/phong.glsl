@@ -34,8 +34,9 @@ vec3 lit(vec3 color, vec3 gradient, vec3 point, vec3 view) {
     vec3 normal = steepest > 0.0 ? normalize(gradient / steepest) : vec3(0.0);
     normal = dot(normal, view) < 0.0 ? -normal : normal;
     vec3 sum = vec3(0.0);
-    int i = 0;
-    do {
+    int count = lights.rows.length() / LIGHT_ROWS;
+    // Asked at the end as well: segment.glsl.
+    for (int i = 0; i < count;) {
         vec4 place = lights.rows[i * LIGHT_ROWS];
         vec4 parts = lights.rows[i * LIGHT_ROWS + 1];
         vec3 ambient = WHITE_LIGHTS ? parts.xxx : parts.rgb;
@@ -59,6 +60,9 @@ vec3 lit(vec3 color, vec3 gradient, vec3 point, vec3 view) {
 #endif
         sum += reflected;
         ++i;
-    } while (i < lights.rows.length() / LIGHT_ROWS);
+        if (i >= count) {
+            break;
+        }
+    }
     return sum;
 }

@@ -144,16 +144,18 @@ CellPart next_part(inout CellWalk walk, float length) {
 float first_at(Ray ray, vec2 between, float level, float sign) {
     CellWalk walk = walk_from(ray, between.x);
     float length = between.y - between.x;
-    float found = between.y;
-    if (walk.at < length) {
-        float root;
-        do {
-            CellPart part = next_part(walk, length);
-            float corners[8];
-            corners_of(part.below, level, corners);
-            root = first_root(cubic_of(corners, part.from, part.to - part.from), sign);
-            found = root <= 1.0 ? between.x + mix(part.steps.x, part.steps.y, root) : found;
-        } while (!(root <= 1.0) && walk.at < length);
+    while (walk.at < length) {
+        CellPart part = next_part(walk, length);
+        float corners[8];
+        corners_of(part.below, level, corners);
+        float root = first_root(cubic_of(corners, part.from, part.to - part.from), sign);
+        if (root <= 1.0) {
+            return between.x + mix(part.steps.x, part.steps.y, root);
+        }
+        // Asked at the end as well: segment.glsl.
+        if (walk.at >= length) {
+            break;
+        }
     }
-    return found;
+    return between.y;
 }

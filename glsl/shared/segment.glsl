@@ -1,8 +1,9 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
 // Needs what shade.glsl needs, and that.
 //
-// Loops ask at their end whether they go on, here and wherever few turns are usual: drivers that run lanes under masks (llvmpipe) go
-// through the body once more, for no lane, where it is asked at the beginning.
+// Here and in other loops of few turns it is asked at the end as well whether they go on. Drivers that run lanes under masks (llvmpipe,
+// SwiftShader) go through a body once more, for no lane, where it is asked at the beginning only: that takes as long as another sample. Were
+// it asked at the end only, they would give lanes that have left what the body makes of them with those that have not.
 
 #ifdef SURFACE
 // Where the ray's segment for main pass `pass` is on a surface first: steps to the last place in front of it that was looked at, and
@@ -15,15 +16,15 @@ vec4 segment_color(Ray ray, uint pass) {
     vec4 hit = vec4(0.0);
     uint first = segment_begin(ray, pass);
     uint end = min(pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
-    if (first < end) {
-        uint i = end;
-        do {
-            --i;
-            vec2 stretch = stretch_after(ray, i);
-            if (on_surface(ray, stretch.y)) {
-                hit = vec4(stretch, 0.0, 1.0);
-            }
-        } while (i > first);
+    for (uint i = end; i > first;) {
+        --i;
+        vec2 stretch = stretch_after(ray, i);
+        if (on_surface(ray, stretch.y)) {
+            hit = vec4(stretch, 0.0, 1.0);
+        }
+        if (i <= first) {
+            break;
+        }
     }
     if (first == first_sample(ray) && first < end) {
         float begin = stretch_after(ray, first).x;
@@ -39,19 +40,19 @@ vec4 segment_color(Ray ray, uint pass) {
     vec4 segment = no_sample();
     uint first = segment_begin(ray, pass);
     uint end = min(pass * SAMPLES_PER_PASS + SAMPLES_PER_PASS, ray.samples);
-    if (first < end) {
-        uint i = first;
 #ifdef PREINTEGRATED
-        float front = node_at(ray, i);
+    float front = first < end ? node_at(ray, first) : 0.0;
 #endif
-        do {
+    for (uint i = first; i < end;) {
 #ifdef PREINTEGRATED
-            segment = joined(segment, shade_span(ray, i, front));
+        segment = joined(segment, shade_span(ray, i, front));
 #else
-            segment = joined(segment, shade_sample(ray, i));
+        segment = joined(segment, shade_sample(ray, i));
 #endif
-            ++i;
-        } while (i < end);
+        ++i;
+        if (i >= end) {
+            break;
+        }
     }
     return segment;
 }

@@ -139,45 +139,17 @@ bool take_step(Ray ray, uint i, inout vec4 held) {
 vec4 gather(Ray ray, vec4 held) {
     AdaptiveWay way = begin_way(ray, 0u);
     bool done = is_done(held);
-    if (!done && goes_on(ray, way)) {
-        do {
-            held = joined(held, adaptive_part(ray, way));
-            // T is tested after whole steps.
-            done = way.lengths > 0.0 ? held.a >= 1.0 : is_done(held);
-        } while (!done && goes_on(ray, way));
+    while (!done && goes_on(ray, way)) {
+        held = joined(held, adaptive_part(ray, way));
+        // T is tested after whole steps.
+        done = way.lengths > 0.0 ? held.a >= 1.0 : is_done(held);
+        if (done || !goes_on(ray, way)) {
+            break;
+        }
     }
     return held;
 }
 #else
-// Takes the samples of a ray from `i` to before `end`, of which there is one, as long as it is not done.
-void take_samples(inout Ray ray, inout uint i, uint end, inout vec4 held, inout bool done) {
-#ifdef TRANSPARENT
-    float front = crossed_value(ray, stretch_after(ray, i).x);
-#elif defined(PREINTEGRATED)
-    float front = node_at(ray, i);
-#endif
-    do {
-#ifdef REFRACTION
-        bend(ray, i);
-        // It may leave the volume sooner; where it does so later, the loop around goes on.
-        end = min(end, max(ray.samples, i + 1u));
-#endif
-#if defined(TRANSPARENT)
-        cross_step(ray, i, front, held);
-        done = is_done(held);
-#elif defined(SURFACE)
-        done = take_step(ray, i, held);
-#elif defined(PREINTEGRATED)
-        held = joined(held, shade_span(ray, i, front));
-        done = is_done(held);
-#else
-        held = joined(held, shade_sample(ray, i));
-        done = is_done(held);
-#endif
-        ++i;
-    } while (!done && i < end);
-}
-
 // Samples of the ray from its first one on, joined with what it holds already; the ray ends where it has bent last.
 vec4 gather(inout Ray ray, vec4 held) {
     uint i = first_sample(ray);
@@ -202,23 +174,52 @@ vec4 gather(inout Ray ray, vec4 held) {
         }
     }
 #endif
-    if (!done && i < ray.samples) {
-        do {
+    // Asked at the end as well, here and within: segment.glsl.
+    while (!done && i < ray.samples) {
 #if defined(LEAP_BLOCKS) || defined(LEAP_DISTANCES)
-            // Rays that a device shades together leap together, and then sample together.
-            uint free;
-            do {
-                free = free_from(ray, i);
-                i += free;
-            } while (free > 0u && i < ray.samples);
-            uint end = min(i + SAMPLES_PER_PASS, ray.samples);
-#else
-            uint end = ray.samples;
-#endif
-            if (i < end) {
-                take_samples(ray, i, end, held, done);
+        // Rays that a device shades together leap together, and then sample together.
+        for (uint free = 1u; free > 0u && i < ray.samples;) {
+            free = free_from(ray, i);
+            i += free;
+            if (free == 0u || i >= ray.samples) {
+                break;
             }
-        } while (!done && i < ray.samples);
+        }
+        uint end = min(i + SAMPLES_PER_PASS, ray.samples);
+#else
+        uint end = ray.samples;
+#endif
+#ifdef TRANSPARENT
+        float front = crossed_value(ray, stretch_after(ray, i).x);
+#elif defined(PREINTEGRATED)
+        float front = node_at(ray, i);
+#endif
+        while (!done && i < end) {
+#ifdef REFRACTION
+            bend(ray, i);
+            // It may leave the volume sooner; where it does so later, the loop around goes on.
+            end = min(end, max(ray.samples, i + 1u));
+#endif
+#if defined(TRANSPARENT)
+            cross_step(ray, i, front, held);
+            done = is_done(held);
+#elif defined(SURFACE)
+            done = take_step(ray, i, held);
+#elif defined(PREINTEGRATED)
+            held = joined(held, shade_span(ray, i, front));
+            done = is_done(held);
+#else
+            held = joined(held, shade_sample(ray, i));
+            done = is_done(held);
+#endif
+            ++i;
+            if (done || i >= end) {
+                break;
+            }
+        }
+        if (done || i >= ray.samples) {
+            break;
+        }
     }
     return held;
 }

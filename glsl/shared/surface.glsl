@@ -16,23 +16,21 @@ layout(set = 0, binding = 19, std430) readonly buffer SurfaceLevels {
 
 // The surface that a value is on, the last of several; -1 where it is on none.
 int level_of(float value) {
-    int level = surface_levels.list.length();
-    bool found;
-    do {
-        --level;
-        found = surface_levels.list[level].from <= value && value <= surface_levels.list[level].to;
-    } while (!found && level > 0);
-    return found ? level : -1;
+    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
+        if (surface_levels.list[i].from <= value && value <= surface_levels.list[i].to) {
+            return i;
+        }
+    }
+    return -1;
 }
 
 // Within how many surfaces a value is.
 int surfaces_around(float value) {
     // Down from the last one, as above: of a loop that counts up, lavapipe of Mesa 26 makes code that ends the program.
-    int level = surface_levels.list.length();
-    bool found;
-    do {
-        --level;
-        found = value >= surface_levels.list[level].from;
-    } while (!found && level > 0);
-    return found ? level + 1 : 0;
+    for (int i = surface_levels.list.length() - 1; i >= 0; --i) {
+        if (value >= surface_levels.list[i].from) {
+            return i + 1;
+        }
+    }
+    return 0;
 }

@@ -26,8 +26,8 @@ Meeting meet(Ray ray, vec2 between) {
     // The first value of a surface on the way from one to the other.
     bool rises = front < back;
     float met = 0.0;
-    int i = 0;
-    do {
+    int count = surface_levels.list.length();
+    for (int i = 0; i < count;) {
         SurfaceLevel one = surface_levels.list[i];
         float value = rises ? one.from : one.to;
         bool ahead = rises ? value > front : value < front;
@@ -36,7 +36,10 @@ Meeting meet(Ray ray, vec2 between) {
             met = value;
         }
         ++i;
-    } while (i < surface_levels.list.length());
+        if (i >= count) {
+            break;
+        }
+    }
     if (level < 0 || REFINE == NONE) {
         return Meeting(between.y, max(level, 0));
     }

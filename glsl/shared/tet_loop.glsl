@@ -29,15 +29,15 @@ vec4 through_cells(Line line, vec4 entered, vec4 held) {
     way.side = entered.y > 0.0 && !any(entrance.lefts) ? way.side : NOTHING;
     bool enters = true;
     // No ray goes through more cells than there are.
-    int left_over = tet_codes.list.length();
-    if (way.side != NOTHING && !IS_ENDED(held)) {
-        do {
-            Way next = leave(line, way);
-            held = joined(held, cell_light(line, way, next, enters));
-            way = next;
-            enters = false;
-            --left_over;
-        } while (left_over > 0 && way.side != NOTHING && !IS_ENDED(held));
+    for (int left_over = tet_codes.list.length(); left_over > 0 && way.side != NOTHING && !IS_ENDED(held); --left_over) {
+        Way next = leave(line, way);
+        held = joined(held, cell_light(line, way, next, enters));
+        way = next;
+        enters = false;
+        // Asked at the end as well: segment.glsl.
+        if (way.side == NOTHING || IS_ENDED(held)) {
+            break;
+        }
     }
     return held;
 }

@@ -29,20 +29,19 @@ bool way_visible(Ray ray, uint i) {
 #endif
     ivec3 low = min(front, back);
     ivec3 high = max(front, back);
-    ivec3 block = low;
-    bool visible;
-    do {
+    bool visible = false;
+    // Asked at the end as well: segment.glsl.
+    for (ivec3 block = low; !visible && block.z <= high.z;) {
         visible = block_visible(block);
         ++block.x;
-        if (block.x > high.x) {
-            block.x = low.x;
-            ++block.y;
+        block.y += block.x > high.x ? 1 : 0;
+        block.x = block.x > high.x ? low.x : block.x;
+        block.z += block.y > high.y ? 1 : 0;
+        block.y = block.y > high.y ? low.y : block.y;
+        if (visible || block.z > high.z) {
+            break;
         }
-        if (block.y > high.y) {
-            block.y = low.y;
-            ++block.z;
-        }
-    } while (!visible && block.z <= high.z);
+    }
     return visible;
 }
 
