@@ -1,9 +1,9 @@
 // The segment of a main pass: M samples, front to back [KW03 §2.1, Thesis §5.2.2]. Twin: src/twin/segment.rs.
 // Needs what shade.glsl needs, and that.
 //
-// Here and in other loops of few turns it is asked at the end as well whether they go on. Drivers that run lanes under masks (llvmpipe,
-// SwiftShader) go through a body once more, for no lane, where it is asked at the beginning only: that takes as long as another sample. Were
-// it asked at the end only, they would give lanes that have left what the body makes of them with those that have not.
+// This loop and others of few turns ask at both ends whether they go on. Drivers that run lanes under masks (llvmpipe, SwiftShader) run the
+// body of a loop that asks at its beginning only once more, for no lane, which takes as long as another sample. A loop that asked at its end
+// only would be wrong there: they run its body again for lanes that have left it, along with the others, and lose what those lanes held.
 
 #ifdef SURFACE
 // Where the ray's segment for main pass `pass` is on a surface first: steps to the last place in front of it that was looked at, and

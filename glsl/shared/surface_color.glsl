@@ -27,6 +27,7 @@ Meeting meet(Ray ray, vec2 between) {
     bool rises = front < back;
     float met = 0.0;
     int count = surface_levels.list.length();
+    // Asked at the end as well: segment.glsl.
     for (int i = 0; i < count;) {
         SurfaceLevel one = surface_levels.list[i];
         float value = rises ? one.from : one.to;

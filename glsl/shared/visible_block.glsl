@@ -33,6 +33,7 @@ bool way_visible(Ray ray, uint i) {
     // Asked at the end as well: segment.glsl.
     for (ivec3 block = low; !visible && block.z <= high.z;) {
         visible = block_visible(block);
+        // The next block, along x first.
         ++block.x;
         block.y += block.x > high.x ? 1 : 0;
         block.x = block.x > high.x ? low.x : block.x;

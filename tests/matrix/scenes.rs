@@ -43,8 +43,9 @@ const KINDS: [(&str, Change); 93] = [
     ("many passes", |s| s.sampling.samples_per_pass = 2),
     ("a single pass", |s| s.sampling.samples_per_pass = 64),
     ("more passes than samples", |s| s.sampling.passes = 9),
-    ("opacities for another step", |s| s.sampling.step = 0.7),
-    ("opacities as they stand", |s| (s.sampling.step, s.sampling.alpha) = (0.7, Alpha::Paper)),
+    // No slice but the first lies in a face between cells by these steps: rounding would decide who is asked.
+    ("opacities for another step", |s| s.sampling.step = 0.73),
+    ("opacities as they stand", |s| (s.sampling.step, s.sampling.alpha) = (0.73, Alpha::Paper)),
     ("a last sample of its own length", |s| {
         (s.sampling.offset, s.sampling.last) = (Offset::Midpoint, Last::Partial);
         s.sampling.step = 1.3;
@@ -56,7 +57,7 @@ const KINDS: [(&str, Change); 93] = [
     ("parts of steps classified as a whole", |s| {
         (s.sampling.classification, s.sampling.last) = (Classification::PreIntegrated, Last::Partial);
     }),
-    ("nearest voxels", |s| s.sampling.filter = Filter::Nearest),
+    ("nearest voxels", |s| (s.sampling.filter, s.sampling.step) = (Filter::Nearest, 0.93)),
     // How far a texture unit is off, plans state of a picture; where a ray ends by it nobody can tell.
     ("the texture unit", |s| {
         (s.sampling.filter, s.volume.texture) = (Filter::Hardware, VolumeTexture::Auto);

@@ -41,7 +41,7 @@ section! {
     #[arg(skip)]
     points?: Vec<[f64; 5]>;
 
-    /// Length an opacity stands for, by its unit
+    /// Length an opacity stands for, in the unit that --reference-unit names
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     reference: f64 = 1.0, within REFERENCES;
 

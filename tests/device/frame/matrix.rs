@@ -45,11 +45,11 @@ const UNDECIDED: u64 = 4;
 const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 
 /// The same of shells, where two of them, or a shell and a surface, may be at one depth.
-const UNDECIDED_OF_SHELLS: u64 = 64;
+const UNDECIDED_OF_SHELLS: u64 = 40;
 
-/// The same of slices across an axis of the volume: some lie in faces between voxels or cells, and rounding decides whose values samples
-/// have without interpolation, or who says what can be skipped. What is skipped shows nothing either way: pictures are the rule's to the bit.
-const UNDECIDED_IN_FACES: u64 = 256;
+/// The same of slices at textures by methods that look ahead: all of them lie in faces between cells, and rounding decides which of the two
+/// is asked what can be skipped. Their pictures are held against the rule's to the bit, whose twin leaves no more undecided than others.
+const UNDECIDED_IN_FACES: u64 = 204;
 
 /// Pixels on the outline of the box that the rasteriser may leave undecided: none from within, from outside some fifteen on
 /// a raster of 1/16 pixel.
@@ -211,8 +211,7 @@ fn most_undecided(scene: &Scene, method: &Method) -> u64 {
     if !method.takes_samples() {
         return UNDECIDED_OF_SHELLS;
     }
-    let by_cells = method.looks_ahead() || scene.settings.sampling.filter == Filter::Nearest;
-    if by_cells && method.stack() == Some(Stack::Objects) {
+    if method.looks_ahead() && method.stack() == Some(Stack::Objects) && !scene.settings.method.between {
         return UNDECIDED_IN_FACES;
     }
     // A loop asks after every sample whether the ray has ended, and from each surface along the ways of light what they meet; f32
