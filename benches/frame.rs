@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 
 use depthleap::frame::self_check;
 use depthleap::measure::Run;
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::method;
 use depthleap::read;
 use depthleap::scene::Camera;
@@ -26,7 +27,7 @@ fn main() -> depthleap::Result<()> {
     let (info, _) = pick(&instance.devices()?, None)?;
     println!("{}, {} {}", info.name, info.driver_name, info.driver_info);
     let device = Device::new(&instance, &info, false)?;
-    let checked = Checked { check: self_check(&device)?, device, early_end: None };
+    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Fitted };
     for (name, settings) in scenes() {
         let methods = METHODS.map(|name| MethodSettings { name, ..MethodSettings::default() });
         let mut runner = Runner::new(Some(&checked), read::scene(&settings)?, name);

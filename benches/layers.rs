@@ -4,7 +4,8 @@
 //! CPU time of the process, as in the bench `frame`, and the fragments. Methods take turns. Needs a device.
 
 use depthleap::frame::self_check;
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::method;
 use depthleap::read;
 use depthleap::scene::Camera;
@@ -25,7 +26,7 @@ fn main() -> depthleap::Result<()> {
     let (info, _) = pick(&instance.devices()?, None)?;
     println!("{}, {} {}; shells:128, {SPHERES} spheres in each other", info.name, info.driver_name, info.driver_info);
     let device = Device::new(&instance, &info, false)?;
-    let checked = Checked { check: self_check(&device)?, device, early_end: None };
+    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Fitted };
     println!(
         "{:>6}  {:<7} {:<12} {:>20} {:>7} {:>12} {:>14}",
         "layers", "partial", "method", "CPU ms (MAD)", "to none", "main", "intermediate"

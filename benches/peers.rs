@@ -13,7 +13,8 @@ use std::process::Command;
 
 use depthleap::auto::{AutoRecord, DeviceFacts, ErrorChoice, Estimate, choose, settle};
 use depthleap::frame::self_check;
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::measure::{Picture, Statistics};
 use depthleap::part::rows::{Ahead, Method};
 use depthleap::scene::settings::{Distance, ErrorNorm, MethodSettings, Settings, Tiles};
@@ -54,7 +55,7 @@ fn main() -> Result<()> {
         "{SIZE} x {SIZE} pixels, step 1, CPU ms, median of {RUNS} (least to greatest), rmse against the exact integral"
     );
     let device = Device::new(&instance, &info, false)?;
-    let checked = Checked { check: self_check(&device)?, device, early_end: None };
+    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Fitted };
     for volume in VOLUMES {
         let file = Path::new(DATA).join(format!("{volume}.nrrd"));
         for transfer in TRANSFER_FUNCTIONS {

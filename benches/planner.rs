@@ -3,7 +3,8 @@
 
 use depthleap::frame::self_check;
 use depthleap::measure::Run;
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::method;
 use depthleap::read;
 use depthleap::scene::settings::{MethodName, MethodSettings, Settings};
@@ -27,7 +28,7 @@ fn main() -> depthleap::Result<()> {
     let (info, _) = pick(&instance.devices()?, None)?;
     println!("{}, {} {}; shells:128, 500x500", info.name, info.driver_name, info.driver_info);
     let device = Device::new(&instance, &info, false)?;
-    let checked = Checked { check: self_check(&device)?, device, early_end: None };
+    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Fitted };
     println!(
         "{:<20} {:<15} {:>22} {:>8} {:>12} {:>12} {:>8}",
         "scene", "method", "CPU ms without -> with", "saved", "KiB without", "KiB with", "steps"

@@ -15,6 +15,7 @@ pub mod takes;
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
+pub use cache::COMPILER;
 pub use shader::Shader;
 pub use source::Insert;
 
@@ -55,6 +56,11 @@ pub fn set_directory(directory: PathBuf) -> Result<()> {
     let new = Arc::new(Library::new(source, Cache::of_user()));
     *LIBRARY.write().unwrap_or_else(PoisonError::into_inner) = new;
     Ok(())
+}
+
+/// Whether shaders are those that the program was built with.
+pub fn is_built_in() -> bool {
+    library().is_built_in()
 }
 
 /// The SPIR-V words of a shader.

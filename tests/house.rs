@@ -40,7 +40,8 @@ const MAY_IMPORT: [(&str, &str); 27] = [
     ),
     (
         "measure",
-        "error math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method auto plan frame provenance",
+        "error cache math scene projection structure glsl vulkan truth twin shared part resource geometry feature pass method auto plan frame \
+         provenance",
     ),
     ("report", "error math scene provenance auto measure"),
     (

@@ -1,10 +1,11 @@
 //! The choice: every method that draws the scene is weighed, the best of them with other settings besides.
 
-use super::cost::{build_ms, frame_ms, ranges_pay, served};
+use super::cost::{build_ms, frame_ms, frame_parts, ranges_pay, served};
+use super::device_costs::{DeviceCosts, TimedFrame};
 use super::look::Look;
 use super::record::{AutoRecord, Estimate};
-use super::tunings::{first, takes_passes, tunings};
-use super::work::{Tuning, WayOfWorking, Work};
+use super::tunings::{Tuning, first, takes_passes, tunings};
+use super::work::{WayOfWorking, Work};
 use crate::error::{Error, Result};
 use crate::feature::tiles;
 use crate::method::{self, METHODS};
@@ -19,6 +20,7 @@ use crate::scene::settings::{Cull, LeftOpen, Mark, MethodSettings, Tiles};
 pub struct DeviceFacts {
     /// Of methods that cull there, each by its own form.
     pub methods: Vec<MethodFacts>,
+    pub costs: DeviceCosts,
 }
 
 /// What is known of a method on a device.
@@ -56,7 +58,7 @@ pub fn choose(scene: &Scene, facts: &DeviceFacts) -> Result<AutoRecord> {
 /// Chooses as [`choose`] does, for a scene whose numbers were left open and have been closed.
 pub(super) fn choose_open(scene: &Scene, facts: &DeviceFacts, open: LeftOpen) -> Result<AutoRecord> {
     let mut look = Look::of(scene)?;
-    look.leaves_out_tiles = leaves_out_tiles(scene, &look, open);
+    look.leaves_out_tiles = leaves_out_tiles(scene, &look, facts, open);
     let mut refused = None;
     let mut weighed: Vec<Estimate> = Vec::new();
     let mut scales = Scales { scene, look: &look, facts, known: Vec::new() };
@@ -115,12 +117,12 @@ pub(super) fn choose_open(scene: &Scene, facts: &DeviceFacts, open: LeftOpen) ->
 }
 
 /// Whether methods that leave out tiles of pixels behind which nothing shows do so: where that is asked for, or left open and pays.
-fn leaves_out_tiles(scene: &Scene, look: &Look, open: LeftOpen) -> bool {
+fn leaves_out_tiles(scene: &Scene, look: &Look, facts: &DeviceFacts, open: LeftOpen) -> bool {
     let method = &scene.settings.method;
     let leaping = &method::SINGLE_PASS_OMNI;
     let ms = |leaves_out_tiles: bool| {
         let (look, tuning) = (Look { leaves_out_tiles, ..look.clone() }, first(leaping, &scene.settings, open));
-        frame_ms(leaping, tuning, &Work::of(leaping, tuning, &look), scene)
+        frame_ms(leaping, tuning, &Work::of(leaping, tuning, &look), scene, &facts.costs)
     };
     let pays = || ranges_pay(ms(false) - ms(true), scene.field.values.len() as f64, method.frames);
     let asked = match method.tiles {
@@ -169,16 +171,22 @@ impl Scales<'_> {
         work
     }
 
+    /// What a method would do on the device.
+    fn work_there(&mut self, method: &Method, tuning: Tuning) -> Work {
+        let work = self.work(method, tuning);
+        if self.facts.of(method).is_none_or(|facts| facts.culls_late.is_none()) {
+            return work;
+        }
+        let all = if method.stack().is_some() { &method::SLICES_3D } else { &method::RC };
+        work.with_late_culling(&self.work(all, tuning))
+    }
+
     /// What a method would take.
     fn weigh(&mut self, method: &'static Method, tuning: Tuning) -> Estimate {
-        let mut work = self.work(method, tuning);
-        if self.facts.of(method).is_some_and(|facts| facts.culls_late.is_some()) {
-            let all = if method.stack().is_some() { &method::SLICES_3D } else { &method::RC };
-            work = work.with_late_culling(&self.work(all, tuning));
-        }
+        let work = self.work_there(method, tuning);
         let looks_ahead = method.looks_ahead() && self.look.any_is_free;
-        let build_ms = if looks_ahead { build_ms(method, tuning, self.scene) } else { 0.0 };
-        let frame_ms = frame_ms(method, tuning, &work, self.scene);
+        let build_ms = if looks_ahead { build_ms(method, tuning, self.scene, &self.facts.costs) } else { 0.0 };
+        let frame_ms = frame_ms(method, tuning, &work, self.scene, &self.facts.costs);
         let settings = &self.scene.settings.method;
         let served = served(method, settings.frames, settings.moving);
         Estimate {
@@ -192,6 +200,17 @@ impl Scales<'_> {
             work,
         }
     }
+}
+
+/// A frame of `scene` by its method that took so many milliseconds, with what it is made of.
+///
+/// # Errors
+/// As [`Look::of`], and when the method is none.
+pub fn timed(scene: &Scene, facts: &DeviceFacts, ms: f64) -> Result<TimedFrame> {
+    let (look, method) = (Look::of(scene)?, method::of(scene.settings.method.name)?);
+    let tuning = Tuning::of(&scene.settings);
+    let work = Scales { scene, look: &look, facts, known: Vec::new() }.work_there(method, tuning);
+    Ok(TimedFrame { method: method.name.to_owned(), parts: frame_parts(method, tuning, &work, scene), ms })
 }
 
 /// What was found, in sentences.
@@ -212,6 +231,7 @@ fn reasons(look: &Look, facts: &DeviceFacts, chosen: &Estimate) -> Vec<String> {
     let unfit = facts.methods.iter().filter(|facts| facts.unfit).count();
     let lacking = || format!("{unfit} methods are left out, whose way to cull this device lacks or gets wrong");
     reasons.extend((unfit > 0).then(lacking));
+    reasons.push(facts.costs.words());
     let late: Vec<&MethodFacts> = facts.methods.iter().filter(|facts| facts.culls_late.is_some()).collect();
     let of_chosen = late.iter().find(|facts| facts.method == chosen.method);
     let one = of_chosen.or(late.first()).and_then(|facts| Some((facts.method, facts.culls_late.as_ref()?)));

@@ -1,9 +1,11 @@
 //! What work costs: constants in nanoseconds of CPU time, fitted to frames that were measured on llvmpipe of Mesa 22.3
-//! (`benches/results/lavapipe-22.3/auto.md` says how, and which of them were set by hand). Other devices have none of their own: what
-//! counts is the order of methods, and that is theirs where they spend their time alike.
+//! (`benches/results/lavapipe-22.3/auto.md` says how, and which of them were set by hand). [`DeviceCosts`] says how far those of a device
+//! differ from them.
 
-use super::work::{Tuning, Work};
-use crate::part::rows::{Ahead, Method, Traversal};
+use super::device_costs::{DeviceCosts, KINDS, Way};
+use super::tunings::Tuning;
+use super::work::Work;
+use crate::part::rows::{Ahead, Method};
 use crate::projection;
 use crate::scene::Scene;
 use crate::scene::settings::{Distance, Gradients};
@@ -38,69 +40,76 @@ struct SampleCosts {
     value: f64,
     /// A look for a surface.
     surface: f64,
+    /// What a fetch takes more for each doubling of the texels beyond [`CACHED`]: fewer are found in the caches.
+    of_twice: f64,
 }
 
 /// A loop that holds a ray. As compute shaders they take as long, give or take what scenes do not explain.
 const LOOP: Costs = Costs {
-    frame: 4.5e6,
+    frame: 4.5e5,
     pass: 0.0,
     pixel: 20.0,
     covered: 0.0,
     main: 0.0,
-    sample: SampleCosts { color: 4.5, preintegrated: 42.0, value: 4.5, surface: 100.0 },
+    sample: SampleCosts { color: 5.7, preintegrated: 34.0, value: 6.0, surface: 84.0, of_twice: 0.63 },
     intermediate: 0.0,
-    block: 15.0,
-    distance: 7.5,
-    distance_of_twice: 1.8,
-    surface: [330.0, 0.0],
+    block: 12.5,
+    distance: 8.2,
+    distance_of_twice: 2.2,
+    surface: [240.0, 0.0],
 };
 
 /// Main passes with intermediate ones between them.
 const PASSES: Costs = Costs {
-    frame: 4e6,
-    pass: 5.5e5,
-    pixel: 250.0,
-    covered: 3.6,
-    main: 110.0,
-    sample: SampleCosts { color: 7.5, preintegrated: 75.0, value: 8.0, surface: 12.0 },
-    intermediate: 125.0,
-    block: 69.0,
-    distance: 0.0,
-    distance_of_twice: 8.0,
-    surface: [240.0, 180.0],
+    frame: 5e5,
+    pass: 1.8e5,
+    pixel: 8.0,
+    covered: 2.9,
+    main: 24.0,
+    sample: SampleCosts { color: 5.8, preintegrated: 26.5, value: 5.9, surface: 8.2, of_twice: 0.68 },
+    intermediate: 11.0,
+    block: 64.0,
+    distance: 13.0,
+    distance_of_twice: 3.6,
+    surface: [240.0, 6.0],
 };
 
 /// Main passes that decide where rays go on.
 const FUSED: Costs = Costs {
-    pass: 6e5,
-    pixel: 230.0,
-    covered: 9.8,
-    main: 140.0,
-    sample: SampleCosts { color: 9.0, preintegrated: 80.0, value: 10.0, surface: 12.0 },
-    intermediate: 100.0,
+    pass: 1.4e5,
+    pixel: 5.0,
+    covered: 2.5,
+    main: 18.0,
+    sample: SampleCosts { color: 6.2, preintegrated: 27.0, value: 7.0, surface: 16.0, of_twice: 0.68 },
+    intermediate: 4.5,
     block: 0.0,
-    surface: [210.0, 340.0],
+    distance: 18.0,
+    distance_of_twice: 5.5,
+    surface: [160.0, 2.0],
     ..PASSES
 };
 
 /// Slices, which are blended sample by sample.
 const SLICES: Costs = Costs {
-    frame: 2.4e6,
-    pass: 3e5,
-    pixel: 260.0,
-    covered: 44.0,
-    main: 49.0,
-    sample: SampleCosts { color: 3.2, preintegrated: 120.0, value: 0.3, surface: 0.0 },
-    intermediate: 79.0,
-    block: 110.0,
+    pass: 3.8e5,
+    pixel: 0.0,
+    covered: 0.0,
+    main: 18.0,
+    sample: SampleCosts { color: 9.3, preintegrated: 36.0, value: 0.5, surface: 0.0, of_twice: 1.2 },
+    intermediate: 30.0,
+    block: 87.0,
+    distance: 45.0,
+    distance_of_twice: 8.7,
     surface: [0.0; 2],
     ..PASSES
 };
 
-/// Nanoseconds that a fetch takes more for each doubling of the texels beyond [`CACHED`]: fewer are found in the caches.
-const FETCH_OF_TWICE: f64 = 0.6;
 /// Texels of a texture that stays in the caches.
 const CACHED: f64 = (1 << 15) as f64;
+
+/// By how many times what a fetch takes more for its texture's size grows for each doubling of the texels from a ray to the next beyond one:
+/// rays have fewer lines of memory in common.
+const APART: f64 = 1.15;
 
 /// Bytes of a structure that stays in the caches.
 const OF_CACHES: f64 = (1 << 20) as f64;
@@ -113,19 +122,26 @@ const FETCH_SHARE: f64 = 0.4;
 /// Fetches of a gradient in the shader: one on each side along each axis.
 const GRADIENT_FETCHES: f64 = 6.0;
 
-/// Milliseconds that a frame takes, estimated.
-pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> f64 {
-    let costs = match method.traversal {
-        Traversal::FragmentLoop | Traversal::ComputeLoop => &LOOP,
-        Traversal::Passes if method.fused => &FUSED,
-        // Nobody weighs shells, or cells.
-        Traversal::Passes | Traversal::Shells | Traversal::Cells(_) => &PASSES,
-        Traversal::Slices(_) => &SLICES,
+/// Milliseconds that a frame takes on a device with such costs, estimated.
+pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene, device: &DeviceCosts) -> f64 {
+    let factors = device.of(Way::of(method)).in_order();
+    frame_parts(method, tuning, work, scene).iter().zip(factors).map(|(ms, factor)| ms * factor).sum()
+}
+
+/// What a frame takes by the constants as they are, in milliseconds, by the kinds of work that devices differ in: see
+/// [`super::device_costs::Factors`].
+pub fn frame_parts(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> [f64; KINDS] {
+    let costs = match Way::of(method) {
+        Way::Loops => &LOOP,
+        Way::Passes => &PASSES,
+        Way::Fused => &FUSED,
+        Way::Slices => &SLICES,
     };
     let [each, of_shown] = fetches(scene);
     let voxels = scene.field.values.len() as f64;
-    let far = |texels: f64| FETCH_OF_TWICE * (texels / CACHED).log2().max(0.0);
-    let sample = sample(&costs.sample, scene) + far(voxels) + costs.sample.color * FETCH_SHARE * each;
+    let apart = (voxels.cbrt() / work.met.max(1.0).sqrt()).log2().max(0.0);
+    let far = costs.sample.of_twice * (voxels / CACHED).log2().max(0.0) * (1.0 + APART * apart);
+    let sample = sample(&costs.sample, scene) + far + costs.sample.color * FETCH_SHARE * each;
     let [surface_pixel, surface_main] = if scene.surface.is_some() { costs.surface } else { [0.0; 2] };
     let lookup = match method.skips_blocks() {
         true => costs.block,
@@ -136,18 +152,20 @@ pub fn frame_ms(method: &Method, tuning: Tuning, work: &Work, scene: &Scene) -> 
             costs.distance + costs.distance_of_twice * (bytes / OF_CACHES).log2().max(0.0)
         }
     };
-    let parts = [
-        (costs.frame, 1.0),
-        (costs.pass, work.passes),
+    let fragments = [
         (costs.pixel + surface_pixel, work.pixels),
         (costs.covered, work.pixels * work.passes),
         (costs.main + surface_main, work.main_lanes),
-        (sample, work.samples),
-        (costs.sample.color * FETCH_SHARE * of_shown, work.shown),
         (costs.intermediate, work.intermediate_lanes),
-        (lookup, work.lookups),
     ];
-    NANOSECONDS * parts.iter().map(|(cost, number)| cost * number).sum::<f64>()
+    let shown = costs.sample.color * FETCH_SHARE * of_shown * work.shown;
+    [
+        costs.frame + costs.pass * work.passes,
+        fragments.iter().map(|(cost, number)| cost * number).sum(),
+        sample * work.samples + shown,
+        lookup * work.lookups,
+    ]
+    .map(|ns: f64| NANOSECONDS * ns)
 }
 
 /// In milliseconds.
@@ -178,8 +196,8 @@ const OMNI: f64 = 12.0;
 const DIRECTIONAL: f64 = 43.0;
 const ALONG: f64 = 110.0;
 
-/// Milliseconds to build what a method looks up, estimated.
-pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
+/// Milliseconds to build what a method looks up on a device with such costs, estimated.
+pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene, device: &DeviceCosts) -> f64 {
     let voxels = scene.field.values.len() as f64;
     let side = f64::from(tuning.cell);
     let of_cells = |each: f64| {
@@ -187,6 +205,7 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
         ranges + each * voxels / (side * side * side)
     };
     NANOSECONDS
+        * device.builds
         * match method.ahead {
             Ahead::Nothing => 0.0,
             Ahead::Blocks => RANGE * voxels + voxels / (BLOCK * BLOCK * BLOCK) as f64,
@@ -196,7 +215,7 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene) -> f64 {
         }
 }
 
-/// Whether so many frames that each take so many milliseconds less save more than ranges of all voxels take to be found.
+/// Whether so many frames that each take so many milliseconds less save more than ranges of all voxels take to be found, which a host does.
 pub fn ranges_pay(saved_ms: f64, voxels: f64, frames: u32) -> bool {
     saved_ms * f64::from(frames) > NANOSECONDS * RANGE * voxels
 }

@@ -1,11 +1,35 @@
 //! The settings that methods are weighed with.
 
-use super::work::Tuning;
 use crate::part::rows::{Ahead, Method};
 use crate::scene::settings::{LeftOpen, Settings};
 
+/// The settings of a method that change what it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tuning {
+    /// M, samples of a main pass.
+    pub samples_per_pass: u32,
+    /// Distances that a ray may look up in a segment.
+    pub lookups: u32,
+    /// Voxels along a side of a cell of a distance structure.
+    pub cell: u32,
+    /// Whether blocks are tested before the first main pass too.
+    pub first: bool,
+}
+
+impl Tuning {
+    /// Those of a scene.
+    pub fn of(settings: &Settings) -> Self {
+        Self {
+            samples_per_pass: settings.sampling.samples_per_pass,
+            lookups: settings.method.lookups,
+            cell: settings.method.cell,
+            first: settings.method.block_first,
+        }
+    }
+}
+
 /// Settings of methods that are weighed where the scene leaves them as they are by default.
-const SAMPLES_PER_PASS: [u32; 3] = [8, 16, 32];
+const SAMPLES_PER_PASS: [u32; 4] = [8, 16, 32, 64];
 /// Of loops that look ahead: samples that a ray takes before it looks again.
 const SAMPLES_PER_LOOK: [u32; 3] = [4, 8, 16];
 const LOOKUPS: [u32; 2] = [1, 16];
@@ -21,7 +45,7 @@ pub fn takes_passes(method: &Method) -> bool {
 
 /// The settings that a method is weighed with first: of each one that may be chosen, that of [`FIRST`].
 pub fn first(method: &Method, settings: &Settings, open: LeftOpen) -> Tuning {
-    let (asked, all) = (asked(settings), tunings(method, settings, open));
+    let (asked, all) = (Tuning::of(settings), tunings(method, settings, open));
     let pick =
         |of: fn(&Tuning) -> u32| if all.iter().any(|one| of(one) == of(&FIRST)) { of(&FIRST) } else { of(&asked) };
     Tuning {
@@ -32,20 +56,10 @@ pub fn first(method: &Method, settings: &Settings, open: LeftOpen) -> Tuning {
     }
 }
 
-/// The settings of a scene.
-fn asked(settings: &Settings) -> Tuning {
-    Tuning {
-        samples_per_pass: settings.sampling.samples_per_pass,
-        lookups: settings.method.lookups,
-        cell: settings.method.cell,
-        first: settings.method.block_first,
-    }
-}
-
 /// The settings that a method is weighed with. Numbers that were left open vary; where none was, or the method is to be chosen, those do too
 /// that the scene has as they are by default.
 pub fn tunings(method: &Method, settings: &Settings, open: LeftOpen) -> Vec<Tuning> {
-    let (asked, default) = (asked(settings), asked(&Settings::default()));
+    let (asked, default) = (Tuning::of(settings), Tuning::of(&Settings::default()));
     let others = settings.method.name.is_auto() || !open.any();
     let pick = |changes: bool, asked: u32, default: u32, is_open: bool, all: &[u32]| {
         let varies = changes && (is_open || others && asked == default);
@@ -54,7 +68,7 @@ pub fn tunings(method: &Method, settings: &Settings, open: LeftOpen) -> Vec<Tuni
     // Where passes are forced, M says how far they go.
     let in_passes = takes_passes(method) && settings.sampling.passes == 0;
     let in_looks = method.loops() && method.looks_ahead();
-    let of_method = if in_looks { &SAMPLES_PER_LOOK } else { &SAMPLES_PER_PASS };
+    let of_method = if in_looks { &SAMPLES_PER_LOOK[..] } else { &SAMPLES_PER_PASS };
     let in_segments = in_passes || in_looks;
     let ms = pick(in_segments, asked.samples_per_pass, default.samples_per_pass, open.samples_per_pass, of_method);
     let lookups = pick(method.marks_sections(), asked.lookups, default.lookups, open.lookups, &LOOKUPS);

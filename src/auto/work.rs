@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::look::{Look, LookRay, anything_shows};
+use super::tunings::Tuning;
 use crate::feature::tiles;
 use crate::part::rows::{Ahead, Method, Traversal};
 use crate::scene::settings::Distance;
@@ -12,7 +13,9 @@ use crate::structure::blocks::BLOCK;
 /// the ray that has most to do, for each of its neighbours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Work {
-    /// Rays.
+    /// Pixels whose rays meet the volume, and those that are begun.
+    #[serde(default)]
+    pub met: f64,
     pub pixels: f64,
     /// Main passes.
     pub passes: f64,
@@ -56,19 +59,6 @@ impl WayOfWorking {
     }
 }
 
-/// The settings of a method that change what it does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tuning {
-    /// M, samples of a main pass.
-    pub samples_per_pass: u32,
-    /// Distances that a ray may look up in a segment.
-    pub lookups: u32,
-    /// Voxels along a side of a cell of a distance structure.
-    pub cell: u32,
-    /// Whether blocks are tested before the first main pass too.
-    pub first: bool,
-}
-
 impl Work {
     /// What `method` would do.
     pub fn of(method: &Method, tuning: Tuning, look: &Look) -> Self {
@@ -76,7 +66,7 @@ impl Work {
         let passes = if method.loops() || method.back_to_front() { 1.0 } else { (f64::from(look.longest) / m).ceil() };
         let in_tiles = look.leaves_out_tiles && tiles::are_left_out_by(method);
         let pixels = if in_tiles { look.live_pixels() } else { look.pixels };
-        let mut sum = Self { pixels, passes, ..Self::default() };
+        let mut sum = Self { met: look.pixels, pixels, passes, ..Self::default() };
         for cluster in look.clusters.iter().filter(|cluster| !in_tiles || anything_shows(cluster)) {
             let walks = cluster.iter().map(|ray| Walk { method, tuning, look, ray });
             sum.add(walks.map(|walk| walk.trace()).collect());
@@ -111,6 +101,7 @@ impl Work {
     /// Counts of all rays of a view, of those of its clusters.
     fn times(self, factor: f64) -> Self {
         Self {
+            met: self.met,
             pixels: self.pixels,
             passes: self.passes,
             main: factor * self.main,

@@ -7,8 +7,10 @@ use clap::Args;
 use serde::Serialize;
 
 use super::output;
+use crate::auto::{DeviceCosts, Factors};
 use crate::error::Result;
 use crate::frame::{SelfCheck, self_check};
+use crate::measure::costs;
 use crate::measure::record::FORMAT;
 use crate::measure::write::{is_standard_output, write_json, write_standard_output};
 use crate::method;
@@ -46,6 +48,8 @@ struct DeviceJson<'a> {
     self_check: Option<std::collections::BTreeMap<String, String>>,
     statistics: Option<String>,
     auto: Option<String>,
+    /// What work costs there, as multiples of the constants; null where no frame was timed yet.
+    costs: Option<DeviceCosts>,
 }
 
 impl InfoCommand {
@@ -65,7 +69,9 @@ impl InfoCommand {
                 Some(_) => None,
                 None => Some(self_check(&Device::new(&instance, info, false)?)?),
             };
+            let costs = costs::known(info);
             describe(&mut text, info, check.as_ref());
+            describe_costs(&mut text, costs.as_ref());
             if info.index == chosen.index {
                 let _ = writeln!(text, "  taken by default: {reason}");
             }
@@ -74,6 +80,7 @@ impl InfoCommand {
                 self_check: check.as_ref().map(SelfCheck::words),
                 statistics: check.as_ref().and_then(|c| c.statistics.clone()),
                 auto: check.and_then(|c| c.automatic(method::NN_OMNI.name())).map(|f| f.name()),
+                costs,
             });
         }
         if let Some(file) = &self.json {
@@ -128,4 +135,18 @@ fn describe(text: &mut String, info: &DeviceInfo, check: Option<&SelfCheck>) {
             None => writeln!(text, "  cannot interpolate {name}"),
         };
     }
+}
+
+/// What `auto` takes work to cost on a device that it has timed frames on.
+fn describe_costs(text: &mut String, costs: Option<&DeviceCosts>) {
+    let Some(costs) = costs else { return };
+    let _ = writeln!(text, "  {}; as multiples of lavapipe 22.3's:", costs.words());
+    let ways = [("loops", costs.loops), ("passes", costs.passes), ("fused", costs.fused), ("slices", costs.slices)];
+    for (way, Factors { passes, fragments, samples, lookups }) in ways {
+        let _ = writeln!(
+            text,
+            "  {way:<8} passes {passes:.2}, fragments {fragments:.2}, samples {samples:.2}, look-ups {lookups:.2}"
+        );
+    }
+    let _ = writeln!(text, "  structures {:.2}", costs.builds);
 }

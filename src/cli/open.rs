@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use crate::error::{Error, Result};
 use crate::frame::{self, self_check};
-use crate::measure::runner::Checked;
+use crate::measure::{Checked, CostSource};
 use crate::vulkan::{Device, DeviceUse, Instance, pick};
 
 /// Which device, and how it is used.
@@ -29,6 +29,9 @@ pub struct DeviceOptions {
     /// Compile the shaders from this folder, laid out like glsl/ [default: those built in]
     #[arg(long, value_name = "DIR")]
     glsl: Option<std::path::PathBuf>,
+    /// What auto takes work to cost on the device
+    #[arg(long, value_name = "FROM", default_value = "measured")]
+    costs: CostSource,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -83,7 +86,7 @@ impl DeviceOptions {
             ));
         }
         let check = self_check(&device)?;
-        Ok(Checked { device, check, early_end })
+        Ok(Checked { device, check, early_end, costs: self.costs })
     }
 
     /// Ends the use of a device.

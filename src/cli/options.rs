@@ -1,6 +1,7 @@
 //! The scene that several commands share: its file or volume, and the options that change its settings. What an option is
 //! called and what it sets stands in [`crate::scene::settings`]; an option given on the command line wins over a file.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -13,7 +14,7 @@ use crate::part::rows::Method;
 use crate::projection::{PROJECTIONS, Projection};
 use crate::read;
 use crate::scene::settings::{
-    Find, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode, SurfaceSettings,
+    Find, LeftOpen, MethodName, ProjectionName, Refine, Settings, SettingsOptions, ShellMode, SurfaceSettings,
 };
 use crate::scene::transfer::DEFAULT_PRESET;
 use crate::scene::{builtin, scenes, tetrahedra};
@@ -51,6 +52,23 @@ impl SceneOptions {
         Ok(settings)
     }
 
+    /// The same for a picture that is no comparison: M and look-ups that neither the scene nor an option says are left to `auto`.
+    ///
+    /// # Errors
+    /// As [`SceneOptions::settings`].
+    pub fn settings_left_open(&self, scene: Option<&OsStr>) -> Result<Settings> {
+        let mut settings = self.settings(scene)?;
+        let text = scene.map_or(Ok(None), scene_text)?;
+        let said = |section: &str, key: &str| text.as_ref().is_some_and(|text| read::says(text, section, key));
+        let (sampling, method) = (&self.given.sampling, &self.given.method);
+        let open = LeftOpen {
+            samples_per_pass: sampling.samples_per_pass.is_none() && !said("sampling", "samples_per_pass"),
+            lookups: method.lookups.is_none() && !said("method", "lookups"),
+        };
+        open.leave(&mut settings);
+        Ok(settings)
+    }
+
     /// Writes the options that were given over `settings`.
     pub fn apply(&self, settings: &mut Settings) {
         self.given.apply(settings);
@@ -70,6 +88,17 @@ pub fn is_whole_scene(name: &OsStr) -> bool {
 /// What stands behind `builtin:`.
 fn built_in(name: &OsStr) -> Option<&str> {
     name.to_str()?.strip_prefix("builtin:")
+}
+
+/// The text of a scene file, or of a built-in scene; none where a scene is named by its volume alone.
+///
+/// # Errors
+/// When the file cannot be read.
+fn scene_text(name: &OsStr) -> Result<Option<Cow<'static, str>>> {
+    match (is_scene_file(name), built_in(name).and_then(scenes::find)) {
+        (true, _) => read::text(Path::new(name)).map(|text| Some(text.into())),
+        (false, scene) => Ok(scene.map(|scene| scene.text.into())),
+    }
 }
 
 /// The settings of a built-in scene, or of a built-in volume alone.

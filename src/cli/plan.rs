@@ -107,7 +107,7 @@ impl PlanCommand {
     pub fn run(&self) -> crate::Result<()> {
         let outputs: Vec<&Path> = self.json.iter().map(PathBuf::as_path).collect();
         output::check(&outputs)?;
-        let mut settings = self.scene_options.settings(self.scene.as_deref())?;
+        let mut settings = self.scene_options.settings_left_open(self.scene.as_deref())?;
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let mut scene = read::scene(&settings)?;
         let auto = settle(&mut scene, &DeviceFacts::default())?;

@@ -74,7 +74,7 @@ impl Render {
                 self.scene_options.apply(&mut settings);
                 settings
             }
-            None => self.scene_options.settings(self.scene.as_deref())?,
+            None => self.scene_options.settings_left_open(self.scene.as_deref())?,
         };
         settings.method.name = self.method.unwrap_or(settings.method.name);
         let Measured { run, picture, .. } = self.measure(&settings)?;

@@ -1,7 +1,7 @@
 //! What an experiment is given by whoever runs it.
 
 use crate::error::Result;
-use crate::measure::runner::Checked;
+use crate::measure::Checked;
 
 pub struct Host<'a> {
     /// Opens the device, when it is needed.

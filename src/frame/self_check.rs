@@ -25,7 +25,7 @@ use crate::probe::{Case, CaseShader, Compare, Mechanism, Rig, measure, pipelines
 use crate::scene::builtin;
 use crate::scene::field::{Field, NanPolicy};
 use crate::scene::settings::{Cull, Filter, Mark, MethodName, Settings};
-use crate::scene::{Camera, ClipPlanes, Scene, TextureUnit, TransferFunction};
+use crate::scene::{Camera, Scene, TextureUnit, TransferFunction};
 use crate::vulkan::{Device, vk};
 
 /// What was found for one form.
@@ -174,25 +174,7 @@ fn check_scene(azimuth: f64, elevation: f64, distance: f64) -> Result<Scene> {
     let field = Field::new(builtin::volume("shells:24")?, None, NanPolicy::Replace)?;
     let transfer =
         TransferFunction::preset("ramp", 1.0).unwrap_or_else(|| TransferFunction::new("none", vec![], 1.0))?;
-    let (field, polygons, unit) = (Arc::new(field), Arc::default(), TextureUnit::default());
-    let (planes, lights) = (ClipPlanes::default(), Vec::new());
-    Ok(Scene {
-        settings,
-        field,
-        tetrahedra: None,
-        transfer,
-        camera,
-        polygons,
-        planes,
-        clip_volume: None,
-        surface: None,
-        shells: None,
-        lights,
-        environment: None,
-        backdrop: None,
-        effect: None,
-        unit,
-    })
+    Ok(Scene::of_volume(settings, Arc::new(field), transfer))
 }
 
 struct FormRun {

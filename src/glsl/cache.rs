@@ -21,9 +21,9 @@ const HASH: usize = 32;
 /// No module is nearly as large; a file that is larger is not read on.
 const LARGEST: u64 = 16 << 20;
 
-/// How the compiler is told from others: the hash of what it made of every shader when the program was built, and of the
+/// How the compiler, and the program's own shaders, are told from others: the hash of what it made of every shader when the program was built, and of the
 /// text of `compile.rs`.
-const COMPILER: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/compiler"));
+pub const COMPILER: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/compiler"));
 
 /// Stands for everything a module is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -24,6 +24,11 @@ impl Library {
         Self { source, cache, made: Mutex::default() }
     }
 
+    /// Whether its files are those that the program was built with.
+    pub fn is_built_in(&self) -> bool {
+        matches!(self.source, Source::BuiltIn(_))
+    }
+
     /// The SPIR-V words of a shader.
     ///
     /// # Errors

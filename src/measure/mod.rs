@@ -5,12 +5,16 @@
 //! 2. [`statistics`], [`timing`]: a median and how far the samples lie from it.
 //! 3. [`picture`], [`error`]: float pictures, their files, and how far one lies from another.
 //! 4. [`law`]: skipping changes no picture; [`saving`]: what became of the fragments saved.
-//! 5. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
+//! 5. [`costs`]: what work costs on a device, for `auto`.
+//! 6. [`limits`]: whether a scene fits; [`mod@write`]: files that are there completely or not at all.
 
 pub mod abreast;
+mod checked;
 mod chosen;
+pub mod costs;
 mod entries;
 pub mod error;
+mod facts;
 pub mod fragment_kind;
 mod frame_times;
 pub mod law;
@@ -28,6 +32,8 @@ pub mod view;
 mod warnings;
 pub mod write;
 
+pub use checked::{Checked, CostSource};
+pub(crate) use checked::{no_device, refuse_missing};
 pub use error::{PictureError, compare};
 pub use measured::Measured;
 pub use picture::Picture;

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
+use super::checked::{Checked, no_device, refuse_missing};
 use super::chosen::Settled;
 use super::error::compare;
 use super::fragment_kind::FragmentKind;
@@ -19,19 +20,15 @@ use super::timing::Timing;
 use super::view::view_in_words;
 use super::warnings::warnings;
 use crate::auto::AutoRecord;
-use crate::error::{Error, Result};
-use crate::frame::{
-    self, CpuFrame, EarlyEnd, FrameRun, GpuFrame, Measure, Resident, SelfCheck, Structures, Verdict, cpu, plan_on,
-};
+use crate::error::Result;
+use crate::frame::{self, CpuFrame, FrameRun, GpuFrame, Measure, Resident, Structures, Verdict, cpu, plan_on};
 use crate::method;
-use crate::part::form::Form;
 use crate::plan::{self, Plan};
 use crate::resource;
 use crate::scene::Scene;
-use crate::scene::settings::{Cull, MethodSettings, Settings};
+use crate::scene::settings::{MethodSettings, Settings};
 use crate::scene::texture::TextureChoice;
 use crate::truth::importance::Importance;
-use crate::vulkan::Device;
 
 /// How often frames are run.
 #[derive(Clone, Copy, Debug)]
@@ -42,14 +39,6 @@ pub struct Effort {
     pub repeats: usize,
     /// Compare with the f64 twin.
     pub reference: bool,
-}
-
-/// A device that was looked at before it is used.
-pub struct Checked {
-    pub device: Arc<Device>,
-    pub check: SelfCheck,
-    /// How frames end early, where the user says so.
-    pub early_end: Option<EarlyEnd>,
 }
 
 /// One scene on one device; what its methods share is made once.
@@ -160,8 +149,7 @@ impl<'a> Runner<'a> {
     fn plan(&self, method: &MethodSettings) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene.settings.method = method.clone();
-        let on = self.checked.map(|checked| (&*checked.device, &checked.check));
-        let auto = self.settled.settle(&mut scene, on)?;
+        let auto = self.settled.settle(&mut scene, self.checked)?;
         let name = scene.settings.method.name;
         let row = method::of(name)?;
         let plan = if !row.on_device {
@@ -366,32 +354,6 @@ fn prepare_cpu(planned: Planned, importance: Option<Arc<Importance>>) -> Result<
     };
     let picture = single(&frame, scene.settings.image.size)?;
     Ok(Entry { planned, frame: None, plain: vec![run.clone()], counts: run, picture, timed: vec![] })
-}
-
-pub(crate) fn no_device() -> Error {
-    Error::device("method", "needs a device, and none is open", "open one, or use --method cpu")
-}
-
-/// A form that the device has not is refused; one that it does wrongly is run and named.
-pub(crate) fn refuse_missing(checked: &Checked, form: Option<Form>) -> Result<()> {
-    let missing = form.and_then(|form| match checked.check.forms.get(&form) {
-        Some(Verdict::Missing(what)) => Some((form, what)),
-        None if form.cull == Cull::Bounds && !checked.device.info.depth_bounds => {
-            checked.check.forms.iter().find_map(|(_, v)| match v {
-                Verdict::Missing(what) => Some((form, what)),
-                _ => None,
-            })
-        }
-        _ => None,
-    });
-    match missing {
-        None => Ok(()),
-        Some((form, what)) => Err(Error::device(
-            format!("--cull {} --mark {} on {}", form.cull_name(), form.mark_name(), checked.device.info.name),
-            what,
-            "use --cull ztest --mark copy, or leave both to auto, which takes what the device has",
-        )),
-    }
 }
 
 /// A twin's frame in f32.

@@ -33,7 +33,7 @@ pub use effect::effect;
 pub use environment::environment;
 pub use mesh::mesh;
 pub use raw::{ByteSkip, RawLayout};
-pub use scene::{scene, scene_of, settings, settings_from_json, settings_of};
+pub use scene::{says, scene, scene_of, settings, settings_from_json, settings_of};
 pub use tetrahedra::tetrahedra;
 pub use transfer::transfer;
 

@@ -41,6 +41,12 @@ pub fn settings_of(name: &str, text: &str, folder: &Path) -> Result<Settings> {
     Ok(settings)
 }
 
+/// Whether the text of a scene file says a key of a section; a text that is not TOML says none.
+pub fn says(text: &str, section: &str, key: &str) -> bool {
+    let table: Option<toml::Table> = toml::from_str(text).ok();
+    table.is_some_and(|table| table.get(section).is_some_and(|section| section.get(key).is_some()))
+}
+
 fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }

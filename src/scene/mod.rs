@@ -106,6 +106,29 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A volume under a transfer function, seen by the camera of `settings`, with nothing else in the scene.
+    pub fn of_volume(settings: Settings, field: Arc<Field>, transfer: TransferFunction) -> Self {
+        let camera = Camera::from(&settings.camera).in_axes_of(field.volume.turn);
+        let (polygons, unit) = (Arc::default(), TextureUnit::default());
+        Self {
+            settings,
+            field,
+            tetrahedra: None,
+            transfer,
+            camera,
+            polygons,
+            planes: ClipPlanes::default(),
+            clip_volume: None,
+            surface: None,
+            shells: None,
+            lights: Vec::new(),
+            environment: None,
+            backdrop: None,
+            effect: None,
+            unit,
+        }
+    }
+
     /// Whether ways through cells are looked up in a table.
     pub fn has_cell_table(&self) -> bool {
         self.tetrahedra.is_some() && self.settings.sampling.preintegrates()

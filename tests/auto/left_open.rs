@@ -1,6 +1,6 @@
 //! What takes the place of what a scene leaves open: numbers of a method that is named, and steps that meet an error.
 
-use depthleap::auto::{DeviceFacts, Look, Tuning, Work, frame_ms, settle};
+use depthleap::auto::{DeviceCosts, DeviceFacts, Look, Tuning, Work, frame_ms, settle};
 use depthleap::frame::{Structures, cpu};
 use depthleap::method;
 use depthleap::plan::plan;
@@ -103,7 +103,13 @@ fn numbers_of_a_named_method_that_are_left_open_are_chosen_and_nothing_else() {
     let look = Look::of(&looked).unwrap();
     for (samples_per_pass, lookups) in [8, 16, 32].into_iter().flat_map(|m| [(m, 1), (m, 16)]) {
         let tuning = Tuning { samples_per_pass, lookups, cell: 1, first: false };
-        let ms = frame_ms(&method::NN_OMNI, tuning, &Work::of(&method::NN_OMNI, tuning, &look), &looked);
+        let ms = frame_ms(
+            &method::NN_OMNI,
+            tuning,
+            &Work::of(&method::NN_OMNI, tuning, &look),
+            &looked,
+            &DeviceCosts::default(),
+        );
         assert!(record.chosen.frame_ms <= ms, "{tuning:?}: {ms} {record:?}");
     }
     // A loop takes no passes, and M is its own; what a number is refused or taken for, auto is.

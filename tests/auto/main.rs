@@ -1,6 +1,7 @@
 //! `auto`: what a look finds, what methods would do by it, held against what their f64 frames count, and what is chosen; needs no
 //! device.
 
+mod costs;
 mod left_open;
 
 use depthleap::auto::{AutoRecord, DeviceFacts, Estimate, Look, MethodFacts, Tuning, Work, choose, settle};
@@ -261,7 +262,7 @@ fn facts(of: impl Fn(&Method) -> (bool, Option<String>)) -> DeviceFacts {
         let (unfit, culls_late) = of(method);
         MethodFacts { method: method.name, unfit, form: None, culls_late }
     };
-    DeviceFacts { methods: culling.map(one).collect() }
+    DeviceFacts { methods: culling.map(one).collect(), ..DeviceFacts::default() }
 }
 
 #[test]

@@ -90,17 +90,45 @@ fn a_built_in_scene_is_named_with_its_meshes() {
 #[test]
 fn plan_needs_no_device_and_its_json_says_the_steps() {
     let place = driverless();
-    let text = place.done("plan builtin:shells:16 --viewport 20x10 --method nn-omni --json plan.json").text();
+    let text = place
+        .done(&format!("plan builtin:shells:16 --viewport 20x10 --method nn-omni {PAPERS} --json plan.json"))
+        .text();
     let json = place.json("plan.json");
     assert_eq!((&json["method"], &json["auto"]), (&"nn-omni".into(), &serde_json::Value::Null));
     let steps = json["steps"].as_array().unwrap();
     assert!(steps.iter().all(|s| text.contains(s["name"].as_str().unwrap())));
     assert_eq!(steps.iter().filter(|s| s["group"] == "main").count() as u64, json["passes"].as_u64().unwrap());
     // On standard output the JSON stands alone.
-    let same: serde_json::Value =
-        serde_json::from_slice(&place.done("plan builtin:shells:16 --viewport 20x10 --method nn-omni --json -").out)
-            .unwrap();
+    let same: serde_json::Value = serde_json::from_slice(
+        &place.done(&format!("plan builtin:shells:16 --viewport 20x10 --method nn-omni {PAPERS} --json -")).out,
+    )
+    .unwrap();
     assert_eq!(same, json);
+}
+
+/// The papers' M, and one look-up.
+const PAPERS: &str = "--samples-per-pass 8 --lookups 1";
+
+#[test]
+fn numbers_that_nobody_says_are_chosen_for_a_method_that_is_named() {
+    let place = driverless();
+    let numbers = |arguments: &str| {
+        place.done(&format!("plan {arguments} --json plan.json"));
+        let json = place.json("plan.json");
+        (json["auto"]["chosen"]["samples_per_pass"].as_u64(), json["auto"]["chosen"]["lookups"].as_u64())
+    };
+    let open = "builtin:jets:64 --viewport 200x200 --method nn-omni";
+    let (m, lookups) = numbers(open);
+    assert!(m > Some(8) && lookups > Some(1), "{m:?} {lookups:?}");
+    // What is said stays, by an option or in a scene file, and the other is chosen.
+    assert_eq!(numbers(&format!("{open} --samples-per-pass 8")).0, Some(8));
+    assert_eq!(numbers(&format!("{open} --lookups 1")).1, Some(1));
+    let both = "[volume]\nbuiltin = \"jets:64\"\n[method]\nname = \"nn-omni\"\nlookups = 1\n[sampling]\nsamples_per_pass = 8\n";
+    place.file("both.toml", both);
+    assert_eq!(numbers("both.toml"), (None, None), "nothing is left to choose");
+    place.file("one.toml", both.replace("lookups = 1\n", ""));
+    let (m, lookups) = numbers("one.toml");
+    assert!(m == Some(8) && lookups > Some(1), "{m:?} {lookups:?}");
 }
 
 #[test]

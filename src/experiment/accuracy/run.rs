@@ -9,10 +9,11 @@ use super::{Accuracy, Curve, FORMAT, Point, SurfaceError, expected_order, fit, m
 use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
+use crate::measure::Checked;
 use crate::measure::fragment_kind::FragmentKind;
 use crate::measure::picture::{Picture, similarity};
 use crate::measure::record::Clock;
-use crate::measure::runner::{Checked, Effort, Runner};
+use crate::measure::runner::{Effort, Runner};
 use crate::measure::view::view_in_words;
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Measured, compare};

@@ -6,8 +6,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use crate::error::Result;
 use crate::frame::{Background, GpuFrame, Measure, plan_on};
+use crate::measure::no_device;
 use crate::measure::record::{ChangeRecord, OrbitFrame};
-use crate::measure::runner::{Runner, no_device};
+use crate::measure::runner::Runner;
 use crate::measure::{Measured, Picture, compare};
 use crate::plan;
 use crate::scene::{Camera, Scene, Settings};

@@ -14,8 +14,9 @@ use crate::error::Result;
 use crate::experiment::Host;
 use crate::experiment::folder::{keep_picture, settings_in};
 use crate::frame::EarlyEnd;
+use crate::measure::Checked;
 use crate::measure::record::Clock;
-use crate::measure::runner::{Checked, Effort, Runner};
+use crate::measure::runner::{Effort, Runner};
 use crate::measure::write::{create_folder, write_json};
 use crate::measure::{Picture, Run};
 use crate::method;
@@ -103,8 +104,7 @@ impl ReproduceJob {
         let any = rates.iter().any(|(column, _)| !column.variants.is_empty());
         let clock = checked.filter(|_| any).map(clock);
         let timed = TimedSets { clock, rates, termination: time_termination(checked, times, &self.timing, host)? };
-        let counted =
-            checked.map(|one| Checked { device: one.device.clone(), check: one.check.clone(), early_end: None });
+        let counted = checked.map(|one| Checked { early_end: None, ..one.clone() });
         let devices = Devices { counted: counted.as_ref(), every_pass: checked };
         let stated = run_stated(&devices, times, &self.timing, host)?;
         drop(counted);

@@ -4,7 +4,7 @@ use super::judge::{Integrator, Rendered};
 use crate::error::Result;
 use crate::frame::{GpuFrame, Measure, Resident, Structures, cpu, plan_on};
 use crate::measure::limits;
-use crate::measure::runner::{Checked, refuse_missing};
+use crate::measure::{Checked, refuse_missing};
 use crate::method;
 use crate::plan::{self, Plan};
 use crate::resource;

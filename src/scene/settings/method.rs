@@ -85,7 +85,7 @@ section! {
     /// for the scene
     #[serde(deserialize_with = "tuned::number")]
     #[arg(long, value_name = "N", value_parser = tuned::option, allow_negative_numbers = true)]
-    lookups: u32 = 1, within Limits::from_to(f64::from(tuned::AUTO), 1024.0, "a number {}, or auto");
+    lookups: u32 = 1, within Limits::from_to(f64::from(tuned::AUTO), 1024.0, "a number {}, or auto"), default "1; auto of render and plan";
 
     /// single-pass-*: the tiles of 8 x 8 pixels that are drawn
     #[arg(long, value_name = "WHICH")]

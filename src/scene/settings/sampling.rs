@@ -64,7 +64,7 @@ section! {
     /// M, samples per main pass; auto, or 0, has it chosen for the scene
     #[serde(deserialize_with = "tuned::number")]
     #[arg(long, value_name = "M", value_parser = tuned::option, allow_negative_numbers = true)]
-    samples_per_pass: u32 = 8, within Limits::from_to(f64::from(tuned::AUTO), MAX_COUNT, "a number {}, or auto");
+    samples_per_pass: u32 = 8, within Limits::from_to(f64::from(tuned::AUTO), MAX_COUNT, "a number {}, or auto"), default "8; auto of render and plan";
 
     /// N, main passes; 0 takes as many as the longest ray of the view needs
     #[arg(long, value_name = "N", allow_negative_numbers = true)]

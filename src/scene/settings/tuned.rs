@@ -69,6 +69,16 @@ impl LeftOpen {
         open
     }
 
+    /// Leaves these numbers open, whatever they were.
+    pub fn leave(self, settings: &mut Settings) {
+        if self.samples_per_pass {
+            settings.sampling.samples_per_pass = AUTO;
+        }
+        if self.lookups {
+            settings.method.lookups = AUTO;
+        }
+    }
+
     /// Whether nothing is open.
     ///
     /// # Errors

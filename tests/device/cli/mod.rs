@@ -1,6 +1,7 @@
 //! The command line on a device: pictures, counts, benches, and what a device refuses.
 
 mod accuracy;
+mod costs;
 mod effects;
 mod limits;
 #[path = "../../cli/program.rs"]
@@ -46,7 +47,8 @@ pub fn tests() -> Vec<Test> {
     ];
     tests.extend(limits::tests());
     tests.extend(effects::tests());
-    let any_driver = accuracy::tests().into_iter().chain(shaders::tests()).chain(reproduce::tests());
+    let any_driver =
+        accuracy::tests().into_iter().chain(costs::tests()).chain(shaders::tests()).chain(reproduce::tests());
     tests.extend(any_driver.map(|test| test.needs(Need::AnyDriver)));
     tests.extend(stability::tests());
     tests.into_iter().map(|test| test.within("cli")).collect()
@@ -125,7 +127,8 @@ fn background_that_stays(_: &Arc<Device>) {
     let place = Place::new();
     place.file("white.toml", "[volume]\nbuiltin = \"shells:24\"\n[image]\nbackground = [1, 1, 1]\n");
     let warned = |scene: &str, method: &str, termination: &str| {
-        let arguments = format!("--viewport 24x18 --tf surface --method {method} --termination {termination}");
+        let arguments =
+            format!("--viewport 24x18 --tf surface --method {method} --termination {termination} --samples-per-pass 8");
         let rendered = place.done(&format!("render {scene} {arguments} -o a.png"));
         rendered.err.contains("up to 5.000 % of the background stays in what is opaque")
     };

@@ -10,7 +10,8 @@ use depthleap::experiment::reproduce::{CountedSet, Part, ReproduceJob, TimingPla
 use depthleap::frame::self_check;
 use depthleap::measure::picture::Picture;
 use depthleap::measure::record::{Clock, Run};
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::read;
 use depthleap::scene::scenes::{PaperFigure, STEGMAIER};
 use depthleap::vulkan::Device;
@@ -32,7 +33,7 @@ pub fn tests() -> Vec<Test> {
 }
 
 fn checked(device: &Arc<Device>) -> Checked {
-    Checked { device: device.clone(), check: self_check(device).unwrap(), early_end: None }
+    Checked { device: device.clone(), check: self_check(device).unwrap(), early_end: None, costs: CostSource::Fitted }
 }
 
 fn times(device: &Arc<Device>) {

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use depthleap::frame::{Counts, EarlyEnd, GpuFrame, Measure, Resident, Verdict};
 use depthleap::measure::law::law_of_skipping;
-use depthleap::measure::runner::{Checked, Effort, Runner};
+use depthleap::measure::runner::{Effort, Runner};
+use depthleap::measure::{Checked, CostSource};
 use depthleap::method;
 use depthleap::part::form::Form;
 use depthleap::part::rows::Method;
@@ -267,7 +268,8 @@ fn fused_passes_run_fewer_fragments(device: &Arc<Device>) {
 
 fn runs_are_held_against_the_law_of_skipping(device: &Arc<Device>) {
     let scene = scene("shells:24", "ramp", |_| {});
-    let checked = Checked { device: device.clone(), check: checked(device).clone(), early_end: None };
+    let checked =
+        Checked { device: device.clone(), check: checked(device).clone(), early_end: None, costs: CostSource::Fitted };
     let methods = [method::RC.name(), method::RC_ERT.name(), method::NN_OMNI.name()]
         .map(|name| MethodSettings { name, ..MethodSettings::default() });
     let effort = Effort { warmups: 0, repeats: 0, reference: false };

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use depthleap::experiment::orbit as around;
-use depthleap::measure::runner::{Checked, Runner};
+use depthleap::measure::runner::Runner;
+use depthleap::measure::{Checked, CostSource};
 use depthleap::method::{self, METHODS};
 use depthleap::part::rows::{Method, Traversal};
 use depthleap::scene::settings::{Distance, MethodSettings};
@@ -137,7 +138,7 @@ fn structures_are_built_beside_the_frames(device: &Arc<Device>) {
         s.method.build = depthleap::scene::settings::Builder::Device;
     });
     let check = checked(device).clone();
-    let checked = Checked { device: device.clone(), check, early_end: None };
+    let checked = Checked { device: device.clone(), check, early_end: None, costs: CostSource::Fitted };
     let mut runner = Runner::new(Some(&checked), scene.clone(), "jets".to_owned());
     let settings = |name| {
         let method = MethodSettings { name, cone: 20.0, ..scene.settings.method.clone() };
