@@ -14,8 +14,7 @@ use std::process::Command;
 use depthleap::auto::{AutoRecord, DeviceFacts, ErrorChoice, Estimate, choose, settle};
 use depthleap::frame::self_check;
 use depthleap::measure::runner::{Effort, Runner};
-use depthleap::measure::{Checked, CostSource};
-use depthleap::measure::{Picture, Statistics};
+use depthleap::measure::{Checked, CostSource, Picture, Statistics, costs};
 use depthleap::part::rows::{Ahead, Method};
 use depthleap::scene::settings::{Distance, ErrorNorm, MethodSettings, Settings, Tiles};
 use depthleap::scene::transfer::Knot;
@@ -55,7 +54,8 @@ fn main() -> Result<()> {
         "{SIZE} x {SIZE} pixels, step 1, CPU ms, median of {RUNS} (least to greatest), rmse against the exact integral"
     );
     let device = Device::new(&instance, &info, false)?;
-    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Fitted };
+    let checked = Checked { check: self_check(&device)?, device, early_end: None, costs: CostSource::Measured };
+    let facts = DeviceFacts { costs: costs::of(&checked)?, ..DeviceFacts::default() };
     for volume in VOLUMES {
         let file = Path::new(DATA).join(format!("{volume}.nrrd"));
         for transfer in TRANSFER_FUNCTIONS {
@@ -64,8 +64,10 @@ fn main() -> Result<()> {
                 continue;
             }
             match file.exists() {
-                true if equal_error => compare_at_equal_error(&checked, &name, &scene(file.clone(), transfer)?)?,
-                true => compare(&checked, &name, &scene(file.clone(), transfer)?)?,
+                true if equal_error => {
+                    compare_at_equal_error(&checked, &facts, &name, &scene(file.clone(), transfer)?)?
+                }
+                true => compare(&checked, &facts, &name, &scene(file.clone(), transfer)?)?,
                 false => println!("{name}: left out, {} is not there", file.display()),
             }
         }
@@ -128,13 +130,13 @@ impl Theirs {
     }
 }
 
-fn compare(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
+fn compare(checked: &Checked, facts: &DeviceFacts, name: &str, scene: &Scene) -> Result<()> {
     println!("\n{name}");
     let exact = exact(scene)?;
     let mut asked = scene.clone();
     // What is built is not counted.
     asked.settings.method.frames = u32::MAX;
-    let record = choose(&asked, &DeviceFacts::default())?;
+    let record = choose(&asked, facts)?;
     let ours = ours(checked, scene, name, &record, record.weighed.len())?;
     for one in &ours {
         println!("  {:<48} {:<24} rmse {:.1e}", one.words, one.times.words(), one.rmse(&exact));
@@ -156,7 +158,7 @@ const SMALLER: f64 = 0.95;
 /// Methods that are measured, the best by their estimates.
 const MEASURED: usize = 3;
 
-fn compare_at_equal_error(checked: &Checked, name: &str, scene: &Scene) -> Result<()> {
+fn compare_at_equal_error(checked: &Checked, facts: &DeviceFacts, name: &str, scene: &Scene) -> Result<()> {
     println!("\n{name}");
     let exact = exact(scene)?;
     for peer in PEERS {
@@ -173,7 +175,7 @@ fn compare_at_equal_error(checked: &Checked, name: &str, scene: &Scene) -> Resul
             let mut chosen = scene.clone();
             chosen.settings.method.frames = u32::MAX;
             (chosen.settings.sampling.error, chosen.settings.sampling.error_norm) = (Some(bound), ErrorNorm::Rmse);
-            let record = match settle(&mut chosen, &DeviceFacts::default()) {
+            let record = match settle(&mut chosen, facts) {
                 Ok(Some(record)) => record,
                 Ok(None) => break,
                 Err(why) => {

@@ -113,7 +113,7 @@ pub fn known(info: &DeviceInfo) -> Option<DeviceCosts> {
 ///
 /// # Errors
 /// What the driver reports.
-pub(super) fn of(checked: &Checked) -> Result<DeviceCosts> {
+pub fn of(checked: &Checked) -> Result<DeviceCosts> {
     let info = &checked.device.info;
     let known = match checked.costs {
         CostSource::Fitted => Some(DeviceCosts::default()),
