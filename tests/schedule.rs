@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 
 use cases::cases;
 use depthleap::frame::schedule::{Barrier, Scheduled, schedule};
-use depthleap::geometry::{BOX_BACK, BOX_FRONT, LIVE_TILES};
+use depthleap::geometry::{BACK_IN_TILES, BOX_BACK, BOX_FRONT, FRONT_IN_TILES};
 use depthleap::part::access::{Access, Usage};
 use depthleap::part::resource::Resource;
 use depthleap::part::{Step, Work};
@@ -76,7 +76,8 @@ impl Scheduling {
     /// Whether all steps that have to do with a target draw the volume's box.
     fn in_the_box_alone(&self, target: Resource) -> bool {
         let mut steps = self.steps.iter().filter(|step| step.accesses.iter().any(|a| a.resource == target));
-        steps.all(|step| step.work.geometry().is_some_and(|of| [&BOX_FRONT, &BOX_BACK, &LIVE_TILES].contains(&of)))
+        let in_box = [&BOX_FRONT, &BOX_BACK, &FRONT_IN_TILES, &BACK_IN_TILES];
+        steps.all(|step| step.work.geometry().is_some_and(|of| in_box.contains(&of)))
     }
 
     /// A line for each attachment that is not stored as it should.

@@ -6,9 +6,18 @@ use crate::projection;
 use crate::scene::Scene;
 use crate::scene::settings::Tiles;
 
-/// Whether a method leaves out whole tiles where it is asked to: loops that know what lies ahead; others draw all.
+/// Whether a method leaves out whole tiles where it is asked to: ray casters that know what lies ahead, but for compute shaders; others
+/// draw all.
 pub fn are_left_out_by(method: &Method) -> bool {
-    method.traversal == Traversal::FragmentLoop && method.looks_ahead()
+    matches!(method.traversal, Traversal::FragmentLoop | Traversal::Passes) && method.looks_ahead()
+}
+
+/// Pixels that a pass covers in the time of a draw, about: 13 and 0.003 microseconds on lavapipe.
+const OF_A_DRAW: u64 = 4096;
+
+/// Pixels that are worth a draw less; none where each tile has its rays begun and marched at once, beside which draws take no time.
+pub fn pixels_of_a_draw(method: &Method) -> Option<u64> {
+    (!method.loops()).then_some(OF_A_DRAW)
 }
 
 /// Whether a method draws only tiles behind which something may show.

@@ -15,5 +15,5 @@ pub use polygons::{CLIP_POLYGONS, OPAQUE_POLYGONS, PEELED_POLYGONS};
 pub use screen::SCREEN;
 pub use shells::{SHELL_SURFACES, SHELLS};
 pub use slices::{SLICES, SLICES_CUT};
-pub use tiles::LIVE_TILES;
+pub use tiles::{BACK_IN_TILES, FRONT_IN_TILES, ray_begins, ray_ends};
 pub use volume_box::{BOX_BACK, BOX_FRONT};

@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
 use crate::feature::{BACKDROP, adaptive, cells, clip_volume, light_paths, refraction, surface};
-use crate::geometry::BOX_FRONT;
+use crate::geometry::ray_begins;
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -203,6 +203,6 @@ pub fn decided(context: &Context, steps: &mut Steps, pass: u32, beside: Option<R
         steps.push(mark_copy::mark_copy(pass));
     }
     if context.has(&COUNTING) && pass > 0 && pass.is_multiple_of(BATCH) {
-        steps.push(alive::alive(&BOX_FRONT, pass, beside));
+        steps.push(alive::alive(ray_begins(context.view), pass, beside));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::constants;
 use crate::feature::{self, lights, surface};
-use crate::geometry::BOX_FRONT;
+use crate::geometry::ray_begins;
 use crate::math::blend::Blend;
 use crate::part::access::Usage;
 use crate::part::rows::{Context, Hook};
@@ -24,7 +24,7 @@ pub fn lighting(context: &Context) -> Step {
     accesses.extend(surface::is_lit(context).then(|| Usage::Sampled.of(lights::lights(context))));
     accesses.extend(feature::reads(context, Hook::Light));
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
-    let mut draw = Draw::plain(&BOX_FRONT, "lighting.frag", twin::lighting::lighting);
+    let mut draw = Draw::plain(ray_begins(context.view), "lighting.frag", twin::lighting::lighting);
     draw.blend = Blend::Over;
     draw.define(surface::shows(context));
     draw.define(feature::defines(context, Hook::Light));

@@ -6,7 +6,7 @@ use super::{constants, cull, rays};
 use crate::feature::layers::first_section;
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
-use crate::geometry::BOX_FRONT;
+use crate::geometry::ray_begins;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -23,7 +23,7 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     let anew = context.section > first_section(context) && pass == 0;
     let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
     let twin = if anew { twin::near_neighbor::anew } else { twin::near_neighbor::near_neighbor };
-    let mut draw = Draw::plain(&BOX_FRONT, "near_neighbor.frag", twin);
+    let mut draw = Draw::plain(ray_begins(context.view), "near_neighbor.frag", twin);
     rays::find(context, &mut draw, &mut accesses);
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{constants, rays};
 use crate::feature::{self, BLOCK_RANGES, DISTANCES, EARLY_ENDS, ISO_SURFACE, effect, lights, surface};
-use crate::geometry::{BOX_FRONT, LIVE_TILES};
+use crate::geometry::ray_begins;
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
 use crate::part::resource::Resource;
@@ -17,7 +17,7 @@ use crate::twin;
 /// The loop as a fragment shader, for every pixel that the box's front faces cover, in the tiles that are drawn.
 pub fn single_pass(context: &Context) -> Step {
     let of_loop = RayLoop::of(context);
-    let geometry = if context.view.tiles.is_some() { &LIVE_TILES } else { &BOX_FRONT };
+    let geometry = ray_begins(context.view);
     let mut accesses = vec![Usage::Vertices.of(geometry.vertices)];
     accesses.extend(of_loop.read(Usage::Sampled));
     let drawn = if of_loop.goes_on { Usage::ColorInput } else { Usage::Color };

@@ -178,7 +178,9 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
             view.sliced(scene, stack, slices)?
         }
         None if method.goes_through_cells() => view.through_cells(scene),
-        None if feature::tiles::only_live(scene, method) => view.in_tiles(content::boxes(scene).into_iter()),
+        None if feature::tiles::only_live(scene, method) => {
+            view.in_tiles(content::boxes(scene).into_iter(), feature::tiles::pixels_of_a_draw(method))
+        }
         None => view,
     };
     if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {

@@ -24,8 +24,9 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// The tiles of a region that any of the boxes may be seen in, which are given by two corners in volume space.
-    pub fn around(rays: &ViewRays, region: Region, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
+    /// The tiles of a region that any of the boxes may be seen in, which are given by two corners in volume space. Where a draw takes as long as
+    /// so many pixels, live tiles are those of few rectangles around them.
+    pub fn around(rays: &ViewRays, region: Region, boxes: impl Iterator<Item = [DVec3; 2]>, draw: Option<u64>) -> Self {
         let [columns, rows] = region.size().map(|pixels| pixels.div_ceil(SIDE));
         let flags = vec![false; columns as usize * rows as usize];
         let mut tiles = Self { region, columns, flags, live: Vec::new() };
@@ -46,6 +47,9 @@ impl Tiles {
             }
             let place = |of: DVec3| if rays.parallel() { [of.x, of.y] } else { [of.x / of.z, of.y / of.z] };
             tiles.add(placed.map(place));
+        }
+        if let Some(draw) = draw {
+            tiles.fill_bands(draw);
         }
         Self { live: tiles.rectangles(), ..tiles }
     }
@@ -70,6 +74,39 @@ impl Tiles {
             let first = (row * self.columns) as usize;
             let [begin, end] = [across.start, across.end].map(|column| first + column as usize);
             self.flags[begin.min(end)..end].fill(true);
+        }
+    }
+
+    /// Fills bands of rows from their first live tile to their last, so that the pixels and the draws of all bands take the least time, a draw
+    /// that of so many pixels.
+    fn fill_bands(&mut self, draw: u64) {
+        let rows: Vec<Option<[usize; 2]>> = self.flags.chunks_exact(self.columns as usize).map(live_columns).collect();
+        // The least of what the rows before each one take, and where the last band of it begins; none where that row is empty.
+        let mut least: Vec<(u64, Option<usize>)> = vec![(0, None)];
+        for (last, row) in rows.iter().enumerate() {
+            let mut best = (if row.is_some() { u64::MAX } else { least[last].0 }, None);
+            let mut band: Option<[usize; 2]> = None;
+            for first in (0..=last).rev().take_while(|_| row.is_some()) {
+                band = joined(band, rows[first]);
+                let wide = band.map_or(0, |[begin, end]| end - begin);
+                let tiles = (wide * (last + 1 - first)) as u64;
+                let all = least[first].0 + draw + tiles * u64::from(SIDE * SIDE);
+                best = if all < best.0 { (all, Some(first)) } else { best };
+            }
+            least.push(best);
+        }
+        let mut end = rows.len();
+        while end > 0 {
+            let Some(first) = least[end].1 else {
+                end -= 1;
+                continue;
+            };
+            if let Some([from, to]) = rows[first..end].iter().fold(None, |band, row| joined(band, *row)) {
+                for row in self.flags.chunks_exact_mut(self.columns as usize).take(end).skip(first) {
+                    row[from..to].fill(true);
+                }
+            }
+            end = first;
         }
     }
 
@@ -100,5 +137,17 @@ impl Tiles {
             }
         }
         found
+    }
+}
+
+/// From the first live tile of a row to one past the last.
+fn live_columns(row: &[bool]) -> Option<[usize; 2]> {
+    Some([row.iter().position(|live| *live)?, row.iter().rposition(|live| *live)? + 1])
+}
+
+fn joined(one: Option<[usize; 2]>, other: Option<[usize; 2]>) -> Option<[usize; 2]> {
+    match (one, other) {
+        (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
+        (one, other) => one.or(other),
     }
 }

@@ -92,9 +92,10 @@ impl View {
         Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
     }
 
-    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space.
-    pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
-        Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes))), ..self }
+    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space; `draw`: see
+    /// [`Tiles::around`].
+    pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>, draw: Option<u64>) -> Self {
+        Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes, draw))), ..self }
     }
 
     /// The rays of the whole picture, as single floats find them: the same, whatever part of it is drawn.

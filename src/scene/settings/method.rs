@@ -87,7 +87,7 @@ section! {
     #[arg(long, value_name = "N", value_parser = tuned::option, allow_negative_numbers = true)]
     lookups: u32 = 1, within Limits::from_to(f64::from(tuned::AUTO), 1024.0, "a number {}, or auto"), default "1; auto of render and plan";
 
-    /// single-pass-*: the tiles of 8 x 8 pixels that are drawn
+    /// rc-block, nn-*, single-pass-*: the tiles of 8 x 8 pixels that are drawn
     #[arg(long, value_name = "WHICH")]
     tiles: Tiles = Tiles::Auto;
 }
@@ -96,7 +96,8 @@ section! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Tiles {
-    /// Those behind which something may show, where auto chooses a loop that leaps and finding them pays over the frames, else all.
+    /// Those behind which something may show, where auto chooses a method that leaves out others and finding them pays over the frames, else
+    /// all.
     #[default]
     Auto,
     /// All that the volume's box covers.
