@@ -52,7 +52,7 @@ impl Factors {
         Self { passes, fragments, samples, lookups }
     }
 
-    /// In the order of [`super::cost::frame_parts`].
+    /// In the order in which frames are taken apart: what passes take, fragments, samples, look-ups.
     pub fn in_order(self) -> [f64; KINDS] {
         [self.passes, self.fragments, self.samples, self.lookups]
     }

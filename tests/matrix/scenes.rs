@@ -15,8 +15,8 @@ use depthleap::scene::field::NanPolicy;
 use depthleap::scene::mesh::Keep;
 use depthleap::scene::settings::{
     Alpha, Classification, ClipSettings, Filter, Find, GradientOperator, GradientTexture, Last, LightSettings, Mapping,
-    MeshSettings, Offset, PartialSegments, Refine, Settings, ShellMode, ShellSum, Shows, SurfaceLevel, Translucency,
-    VolumeTexture,
+    MeshSettings, Offset, PartialSegments, Refine, Settings, ShellMode, ShellSum, Shows, SurfaceLevel, Tiles,
+    Translucency, VolumeTexture,
 };
 use depthleap::scene::{Backdrop, Effect, Environment, Scene};
 use glam::{DQuat, EulerRot};
@@ -30,7 +30,7 @@ type Change = fn(&mut Settings);
 const EVERYWHERE: [[f64; 5]; 1] = [[0.5, 0.9, 0.5, 0.1, 0.3]];
 
 /// What each scene changes of the first.
-const KINDS: [(&str, Change); 93] = [
+const KINDS: [(&str, Change); 95] = [
     ("as it is", |_| {}),
     ("no colours", |s| preset(s, "ramp")),
     ("nothing to skip", |s| s.transfer.points = Some(EVERYWHERE.to_vec())),
@@ -41,6 +41,11 @@ const KINDS: [(&str, Change); 93] = [
     }),
     // More passes than a batch of them: rays that are left are counted.
     ("many passes", |s| s.sampling.samples_per_pass = 2),
+    ("many passes in live tiles", |s| {
+        preset(s, "surface");
+        (s.sampling.samples_per_pass, s.method.tiles) = (2, Tiles::Live);
+    }),
+    ("an iso-surface in live tiles", |s| (s.surface.iso, s.method.tiles) = (Some(90.0), Tiles::Live)),
     ("a single pass", |s| s.sampling.samples_per_pass = 64),
     ("more passes than samples", |s| s.sampling.passes = 9),
     // No slice but the first lies in a face between cells by these steps: rounding would decide who is asked.
