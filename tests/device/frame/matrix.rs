@@ -44,8 +44,8 @@ const UNDECIDED: u64 = 4;
 /// The same where rays end at a value: the background is next to the least of them, and many rays pass near it.
 const UNDECIDED_AT_AN_EXTREME: u64 = 64;
 
-/// The same of shells, where two of them, or a shell and a surface, may be at one depth: along the lines in which a box cuts the outermost one, seen
-/// from within, which are the longest.
+/// The same of shells, where two of them, or a shell and a surface, may be at one depth: what the outermost one in light leaves beside a box, the
+/// most of all scenes.
 const UNDECIDED_OF_SHELLS: u64 = 49;
 
 /// The same of slices at textures by methods that look ahead: all of them lie in faces between cells, and rounding decides which of the two
