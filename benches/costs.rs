@@ -133,11 +133,7 @@ impl CostBench {
         frame.run(Measure::Nothing)?;
         let mut ms = f64::INFINITY;
         for _ in 0..RUNS {
-            let taken = match self.device.info.is_cpu() {
-                true => frame.run(Measure::Nothing)?.cpu_ms,
-                false => frame.run(Measure::Times)?.gpu_total_ms.unwrap_or(f64::NAN),
-            };
-            ms = ms.min(taken);
+            ms = ms.min(costs::taken(&mut frame, self.device.info.is_cpu())?);
         }
         let tuning = Tuning::of(&scene.settings);
         let work = Work::of(method, tuning, look);

@@ -215,7 +215,7 @@ pub fn build_ms(method: &Method, tuning: Tuning, scene: &Scene, device: &DeviceC
         }
 }
 
-/// Whether so many frames that each take so many milliseconds less save more than ranges of all voxels take to be found, which a host does.
+/// Whether so many frames that each take so many milliseconds less save more than the host takes to find the ranges of all voxels.
 pub fn ranges_pay(saved_ms: f64, voxels: f64, frames: u32) -> bool {
     saved_ms * f64::from(frames) > NANOSECONDS * RANGE * voxels
 }

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::method::METHODS;
 use crate::part::rows::{Method, Traversal};
 
 /// Ways of working that have costs of their own.
@@ -97,7 +98,8 @@ impl DeviceCosts {
         };
         let loops = of(Way::Loops).unwrap_or(Factors::ONE);
         let [passes, fused, slices] = [Way::Passes, Way::Fused, Way::Slices].map(|way| of(way).unwrap_or(loops));
-        Self { measured: Some(measured), loops, passes, fused, slices, builds: builds.unwrap_or(1.0) }
+        let measured = frames.iter().any(TimedFrame::says).then_some(measured);
+        Self { measured, loops, passes, fused, slices, builds: builds.unwrap_or(1.0) }
     }
 
     /// Where the costs come from, in words.
@@ -120,8 +122,13 @@ pub struct TimedFrame {
 }
 
 impl TimedFrame {
+    /// Whether it tells anything of what work costs.
+    fn says(&self) -> bool {
+        self.ms > 0.0 && self.parts.iter().sum::<f64>() > 0.0
+    }
+
     fn way(&self) -> Way {
-        let row = crate::method::METHODS.into_iter().find(|row| row.name == self.method);
+        let row = METHODS.into_iter().find(|row| row.name == self.method);
         row.map_or(Way::Loops, Way::of)
     }
 }
@@ -138,8 +145,7 @@ const ROUNDS: usize = 500;
 
 /// The factors by which estimates are off by least in the mean of the squares of their relative errors; none where there is no frame.
 fn fit(frames: &[TimedFrame]) -> Option<Factors> {
-    let sane = |frame: &&TimedFrame| frame.ms > 0.0 && frame.parts.iter().sum::<f64>() > 0.0;
-    let frames: Vec<&TimedFrame> = frames.iter().filter(sane).collect();
+    let frames: Vec<&TimedFrame> = frames.iter().filter(|frame| frame.says()).collect();
     let mut ratios: Vec<f64> = frames.iter().map(|frame| frame.ms / frame.parts.iter().sum::<f64>()).collect();
     ratios.sort_by(f64::total_cmp);
     let all = *ratios.get(ratios.len() / 2)?;

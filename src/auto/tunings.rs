@@ -17,7 +17,7 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// Those of a scene.
+    /// The tuning that settings ask for.
     pub fn of(settings: &Settings) -> Self {
         Self {
             samples_per_pass: settings.sampling.samples_per_pass,

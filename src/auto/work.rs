@@ -13,9 +13,10 @@ use crate::structure::blocks::BLOCK;
 /// the ray that has most to do, for each of its neighbours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Work {
-    /// Pixels whose rays meet the volume, and those that are begun.
+    /// Pixels whose rays meet the volume, those of tiles that are left out too.
     #[serde(default)]
     pub met: f64,
+    /// Rays that are begun.
     pub pixels: f64,
     /// Main passes.
     pub passes: f64,

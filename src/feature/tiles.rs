@@ -12,7 +12,8 @@ pub fn are_left_out_by(method: &Method) -> bool {
     matches!(method.traversal, Traversal::FragmentLoop | Traversal::Passes) && method.looks_ahead()
 }
 
-/// Pixels that a pass covers in the time of a draw, about: 13 and 0.003 microseconds on lavapipe.
+/// Pixels that a pass covers in the time of a draw: on lavapipe, where a draw takes 14 to 27 microseconds and a pixel 0.003, 4,700 and more
+/// (`benches/results/lavapipe-22.3/limit.md`).
 const OF_A_DRAW: u64 = 4096;
 
 /// Pixels that are worth a draw less; none where each tile has its rays begun and marched at once, beside which draws take no time.

@@ -15,9 +15,11 @@ pub fn ray_ends(view: &View) -> &'static Geometry {
     if view.tiles.is_some() { &BACK_IN_TILES } else { &BOX_BACK }
 }
 
+/// The front faces in live tiles alone.
 pub static FRONT_IN_TILES: Geometry =
     in_tiles("front faces in live tiles", &BOX_FRONT, |scene, view, sample| hits(&BOX_FRONT, scene, view, sample));
 
+/// The back faces in live tiles alone.
 pub static BACK_IN_TILES: Geometry =
     in_tiles("back faces in live tiles", &BOX_BACK, |scene, view, sample| hits(&BOX_BACK, scene, view, sample));
 

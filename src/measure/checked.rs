@@ -24,7 +24,7 @@ pub struct Checked {
 /// Where what work costs on a device is known from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum CostSource {
-    /// Frames that are timed there once, a few seconds, and kept in the cache
+    /// Frames that are timed there once, which takes some seconds, and kept in the cache
     #[default]
     Measured,
     /// Frames that are timed now, in place of those that were kept

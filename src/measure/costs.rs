@@ -190,8 +190,11 @@ impl<'a> CostRig<'a> {
     }
 }
 
-/// Milliseconds of a frame, as reports compare them: device time, or on a CPU that of the process.
-fn taken(frame: &mut GpuFrame, on_cpu: bool) -> Result<f64> {
+/// Runs a frame for its milliseconds, as reports compare them: device time, or on a CPU that of the process.
+///
+/// # Errors
+/// What the driver reports.
+pub fn taken(frame: &mut GpuFrame, on_cpu: bool) -> Result<f64> {
     if on_cpu {
         return Ok(frame.run(Measure::Nothing)?.cpu_ms);
     }

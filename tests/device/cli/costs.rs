@@ -21,7 +21,7 @@ fn run(place: &Place, arguments: &str) -> Ended {
     ended
 }
 
-/// What is kept of devices, and the costs of the run that was written last.
+/// The files that are kept of what work costs.
 fn kept(place: &Place) -> Vec<PathBuf> {
     let folder = place.path().join("depthleap/costs");
     std::fs::read_dir(folder).map_or(vec![], |files| files.map(|file| file.unwrap().path()).collect())
