@@ -11,6 +11,7 @@ use super::image::{Image, Sampler};
 use super::layout::Layout;
 use super::owned::{Kept, Owned};
 use super::reflect::Binding;
+use super::texel_buffer::TexelBuffer;
 use crate::error::Result;
 
 /// What a binding is given.
@@ -20,6 +21,7 @@ pub enum Bound<'a> {
     Sampled(&'a Image, &'a Sampler, vk::ImageLayout),
     Storage(&'a Buffer),
     Uniform(&'a Buffer),
+    Texels(&'a TexelBuffer),
     /// An image read and written texel by texel, in layout `GENERAL`.
     StorageImage(&'a Image),
     /// An attachment of the pass of which a fragment reads its own pixel, in layout `GENERAL`.
@@ -55,6 +57,7 @@ impl DescriptorSet {
         }
         let mut images = Vec::new();
         let mut buffers = Vec::new();
+        let mut views = Vec::new();
         for binding in &layout.bindings {
             let given: Vec<_> = resources.iter().filter(|(name, _)| *name == binding.name).collect();
             if given.len() != binding.count as usize {
@@ -72,6 +75,7 @@ impl DescriptorSet {
             }
             let mut image_infos = Vec::new();
             let mut buffer_infos = Vec::new();
+            let mut texel_views = Vec::new();
             for (_, resource) in given {
                 if resource.kind() != binding.kind {
                     let problem = format!("{} is {:?}, {:?} is given", binding.name, binding.kind, resource.kind());
@@ -79,10 +83,12 @@ impl DescriptorSet {
                 }
                 image_infos.extend(resource.image_info());
                 buffer_infos.extend(resource.buffer_info());
+                texel_views.extend(resource.texel_view());
                 resource.keep(&mut made.resources);
             }
             images.push(image_infos);
             buffers.push(buffer_infos);
+            views.push(texel_views);
         }
 
         let pool = pool(device, name, &layout.bindings)?;
@@ -95,14 +101,15 @@ impl DescriptorSet {
         let writes: Vec<_> = layout
             .bindings
             .iter()
-            .zip(images.iter().zip(&buffers))
-            .map(|(binding, (images, buffers))| {
+            .zip(images.iter().zip(&buffers).zip(&views))
+            .map(|(binding, ((images, buffers), views))| {
                 let mut write = vk::WriteDescriptorSet::default()
                     .dst_set(set)
                     .dst_binding(binding.binding)
                     .descriptor_type(binding.kind)
                     .image_info(images)
-                    .buffer_info(buffers);
+                    .buffer_info(buffers)
+                    .texel_buffer_view(views);
                 write.descriptor_count = binding.count;
                 write
             })
@@ -126,6 +133,7 @@ impl Bound<'_> {
             Bound::Sampled(..) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
             Bound::Storage(_) => vk::DescriptorType::STORAGE_BUFFER,
             Bound::Uniform(_) => vk::DescriptorType::UNIFORM_BUFFER,
+            Bound::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
             Bound::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
             Bound::Input(_) => vk::DescriptorType::INPUT_ATTACHMENT,
         }
@@ -140,7 +148,7 @@ impl Bound<'_> {
             Bound::StorageImage(image) | Bound::Input(image) => {
                 Some(info.image_view(image.view()).image_layout(vk::ImageLayout::GENERAL))
             }
-            Bound::Storage(_) | Bound::Uniform(_) => None,
+            Bound::Storage(_) | Bound::Uniform(_) | Bound::Texels(_) => None,
         }
     }
 
@@ -149,7 +157,14 @@ impl Bound<'_> {
             Bound::Storage(buffer) | Bound::Uniform(buffer) => {
                 Some(vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(buffer.info.size))
             }
-            Bound::Sampled(..) | Bound::StorageImage(_) | Bound::Input(_) => None,
+            Bound::Sampled(..) | Bound::StorageImage(_) | Bound::Input(_) | Bound::Texels(_) => None,
+        }
+    }
+
+    fn texel_view(&self) -> Option<vk::BufferView> {
+        match self {
+            Bound::Texels(texels) => Some(texels.view.raw),
+            _ => None,
         }
     }
 
@@ -161,6 +176,10 @@ impl Bound<'_> {
             }
             Bound::StorageImage(image) | Bound::Input(image) => kept.push(image.inner.clone()),
             Bound::Storage(buffer) | Bound::Uniform(buffer) => kept.push(buffer.inner.clone()),
+            Bound::Texels(texels) => {
+                kept.push(texels.view.clone());
+                kept.push(texels.buffer.inner.clone());
+            }
         }
     }
 }

@@ -170,6 +170,13 @@ impl Device {
         properties.optimal_tiling_features.contains(features)
     }
 
+    /// Whether shaders can read texels of that format from buffers.
+    pub(super) fn reads_texels(&self, format: vk::Format) -> bool {
+        // SAFETY: the physical device belongs to the instance that is held.
+        let properties = unsafe { self.instance.raw.get_physical_device_format_properties(self.info.physical, format) };
+        properties.buffer_features.contains(vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER)
+    }
+
     /// Begins to note the names of all that is labelled from now on; what was noted before is forgotten.
     pub fn begin_trace(&self) {
         *self.trace.lock().unwrap_or_else(PoisonError::into_inner) = Some(Vec::new());

@@ -33,6 +33,7 @@ mod stages;
 mod submission;
 mod submit;
 mod suppressed;
+mod texel_buffer;
 mod transfer;
 mod version;
 mod watch;
@@ -60,5 +61,6 @@ pub use render_pass::{Attachment, Dependency, Framebuffer, RenderPass, RenderPas
 pub use shader::ShaderModule;
 pub use submission::Submission;
 pub use suppressed::SUPPRESSED;
+pub use texel_buffer::TexelBuffer;
 pub use transfer::CopyRegion;
 pub use watch::{Watch, exit_at_once, gave_up};

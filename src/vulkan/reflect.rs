@@ -173,7 +173,14 @@ impl<'a> ModuleIds<'a> {
         let name = name.map_or_else(|| format!("variable {id}"), |name| name.to_string());
         let Some(count) = count else { return Err((name, "is an array of unknown length".into())) };
         let descriptor = match (class, self.op(kind)) {
-            (StorageClass::UniformConstant, Op::TypeSampledImage) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
+            (StorageClass::UniformConstant, Op::TypeSampledImage) => {
+                let image = self.id_operand(kind, 0).and_then(|image| self.dimension(image));
+                if image == Some(Dim::DimBuffer) {
+                    vk::DescriptorType::UNIFORM_TEXEL_BUFFER
+                } else {
+                    vk::DescriptorType::COMBINED_IMAGE_SAMPLER
+                }
+            }
             (StorageClass::UniformConstant, Op::TypeImage) if self.is_storage_image(kind) => {
                 vk::DescriptorType::STORAGE_IMAGE
             }
@@ -187,7 +194,7 @@ impl<'a> ModuleIds<'a> {
             (StorageClass::Uniform, Op::TypeStruct) => vk::DescriptorType::UNIFORM_BUFFER,
             (_, other) => {
                 let problem = format!(
-                    "{other:?} cannot be bound; use a combined sampler, a storage image, a subpass input or a buffer block"
+                    "{other:?} cannot be bound; use a combined sampler, a texel buffer, a storage image, a subpass input or a buffer block"
                 );
                 return Err((name, problem));
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use depthleap::vulkan::{
-    Buffer, BufferInfo, CopyRegion, Device, Image, ImageInfo, ImageShape, Place, Scope, texel_bytes, vk,
+    Buffer, BufferInfo, CopyRegion, Device, Image, ImageInfo, ImageShape, Place, Scope, TexelBuffer, texel_bytes, vk,
 };
 
 use super::kit::{COPY_READ, COPY_WRITE, buffer, misuse, refused, run, uploaded};
@@ -16,6 +16,7 @@ pub fn all() -> Vec<Test> {
         buffer_on_the_device_is_out_of_reach,
         buffer_of_no_bytes_is_refused,
         buffer_beyond_the_limit_is_refused,
+        texels_that_a_buffer_cannot_hold_are_refused,
         image_holds_what_was_uploaded,
         image_takes_a_region,
         depth_is_copied_to_the_bit,
@@ -77,6 +78,20 @@ fn buffer_beyond_the_limit_is_refused(device: &Arc<Device>) {
     let limit = device.info.max_storage_buffer;
     let allowed = format!("allows {:.1} MiB in a storage buffer", limit as f64 / f64::from(1 << 20));
     refused(new_buffer(device, limit + 4, vk::BufferUsageFlags::STORAGE_BUFFER), &["wanted", &allowed]);
+}
+
+fn texels_that_a_buffer_cannot_hold_are_refused(device: &Arc<Device>) {
+    let new = |size, format| {
+        let usage = vk::BufferUsageFlags::empty();
+        let info = BufferInfo { name: "wanted".to_owned(), size, usage, place: Place::Device };
+        TexelBuffer::new(device, info, format).map(|texels| texels.buffer.bytes())
+    };
+    assert_eq!(new(48, vk::Format::R32G32B32A32_SFLOAT), Ok(48));
+    refused(new(0, vk::Format::R32_UINT), &["wanted", "0 bytes"]);
+    refused(new(20, vk::Format::R32G32B32A32_SFLOAT), &["wanted", "20 bytes are no texels"]);
+    // More than any device numbers.
+    refused(new(1 << 33, vk::Format::R8_UNORM), &["wanted", "8589934592 texels", &device.info.name]);
+    refused(new(16, vk::Format::D32_SFLOAT), &[&device.info.name, "cannot read D32_SFLOAT from buffers"]);
 }
 
 fn new_image(
