@@ -64,11 +64,11 @@ vec4 segment_color(Ray ray, inout uint at) {
     AdaptiveWay way = begin_way(ray, at);
     uint left_over = SAMPLES_PER_PASS;
     // Nothing passes through what is opaque, whatever is left of its step.
-    while (segment.a < 1.0 && way.lengths > 0.0 || left_over > 0u && way.lengths <= 0.0 && float(way.at) < ray.steps) {
-        left_over -= way.lengths > 0.0 ? 0u : 1u;
+    while (segment.a < 1.0 && in_step(way) || left_over > 0u && !in_step(way) && float(way.at) < ray.steps) {
+        left_over -= in_step(way) ? 0u : 1u;
         segment = composite(segment, adaptive_part(ray, way));
         // Asked at the end as well: segment.glsl.
-        if (way.lengths > 0.0 ? segment.a >= 1.0 : left_over == 0u || float(way.at) >= ray.steps) {
+        if (in_step(way) ? segment.a >= 1.0 : left_over == 0u || float(way.at) >= ray.steps) {
             break;
         }
     }

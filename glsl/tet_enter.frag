@@ -8,11 +8,9 @@
 // LAYER_BEFORE: behind the face of the layer before. AFTER_BEGIN: that is one that rays begin behind, where there is one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [BEGINS], [LAYER_BEFORE], [AFTER_BEGIN], [ORTHOGRAPHIC]
+//@takes [BEGINS], [LAYER_BEFORE], [AFTER_BEGIN]
 
-#include "shared/frame.glsl"
 #include "shared/double_float.glsl"
-#include "shared/ray.glsl"
 #include "shared/seen.glsl"
 #include "shared/way.glsl"
 
@@ -44,8 +42,7 @@ float nearness(float depth) {
 }
 
 void main() {
-    vec2 pixel = gl_FragCoord.xy + vec2(frame.first_column, frame.first_row);
-    Line line = line_through(pixel);
+    Line line = line_through(gl_FragCoord.xy);
 #ifdef BEGINS
     uint face = texelFetch(tet_begin, ivec2(gl_FragCoord.xy), 0).r - 1u;
     bool found = face == NO_FACE;
@@ -60,12 +57,12 @@ void main() {
         if (!any(entrance.lefts)) {
             found = true;
             shown = true;
-            at = entrance.way.at;
+            at = face_point(entrance.way);
         } else if (entrance.way.areas.x + entrance.way.areas.y + entrance.way.areas.z >= 0.0) {
             // Its back is seen: the ray passes beside the mesh.
             found = true;
         } else {
-            uvec4 beside = tet_boundary.list[2u * face + 1u];
+            uvec4 beside = texelFetch(tet_boundary, int(2u * face + 1u));
             face = entrance.lefts.x ? beside.x : entrance.lefts.y ? beside.y : beside.z;
         }
         // Asked at the end as well: shared/segment.glsl.
@@ -76,7 +73,7 @@ void main() {
     float near = nearness(at.x);
     float number = float(face) + 1.0;
 #ifndef BEGINS
-    shown = shown && at.x >= frame.near - tet_view.middle.x;
+    shown = shown && at.x >= tet_view.near;
 #endif
 #ifdef LAYER_BEFORE
     vec4 before = texelFetch(tet_entry, ivec2(gl_FragCoord.xy), 0);

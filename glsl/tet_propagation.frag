@@ -9,7 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 //
 // ENTERS: the first pass behind a layer, to which rays come from outside of the mesh. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
-//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME], [ENTERS]
+//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [SURFACE], [IN_VOLUME], [ENTERS], [FROM_WITHIN]
 
 #include "shared/tet_cell.glsl"
 #include "shared/cull.glsl"
@@ -25,16 +25,15 @@ layout(location = 1) out vec2 next_point;
 layout(location = 2) out vec4 gathered;
 
 // Corners of each cell, by rising numbers.
-layout(set = 0, binding = 70, std430) readonly buffer TetCells {
-    uvec4 list[];
-} tet_cells;
+layout(set = 0, binding = 70) uniform usamplerBuffer tet_cells;
 
 // A ray that enters a cell by the face opposite to a corner, as traversal data have it.
 Way way_into(Line line, uint cell, uint place, vec2 at) {
-    uvec4 corners = tet_cells.list[cell];
+    uvec4 corners = texelFetch(tet_cells, int(cell));
     uvec3 face = place == 0u ? corners.yzw : place == 1u ? corners.xzw : place == 2u ? corners.xyw : corners.xyz;
     Way way;
     way.side = 4u * cell + place + 1u;
+    way.apex = corners[place];
     way.a = seen(line, face.x);
     way.b = seen(line, face.y);
     way.c = seen(line, face.z);
@@ -59,13 +58,13 @@ void main() {
         ivec2 texel = ivec2(gl_FragCoord.xy);
         vec2 here = texelFetch(tet_cell, texel, 0).xy;
         if (here.x > 0.0) {
-            Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
-            Way way = way_into(line, uint(here.x) - 1u, uint(here.y), texelFetch(tet_point, texel, 0).xy);
-            Way next = leave(line, way);
+            CellRay ray = cell_ray(gl_FragCoord.xy);
+            Way way = way_into(ray.line, uint(here.x) - 1u, uint(here.y), texelFetch(tet_point, texel, 0).xy);
+            Way next = leave(ray.line, way);
 #ifdef ENTERS
-            gathered = cell_light(line, way, next, true);
+            gathered = cell_light(ray, way, next, true);
 #else
-            gathered = cell_light(line, way, next, false);
+            gathered = cell_light(ray, way, next, false);
 #endif
             next_point = next.at;
             if (next.side != NOTHING) {

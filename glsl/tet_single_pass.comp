@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 //@takes RGBA32F | RGBA16F | RGBA8
-//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [SURFACE], [IN_VOLUME], [FROM_WITHIN]
 
 #define COMPUTE
 #include "shared/tet_loop.glsl"
@@ -33,6 +33,6 @@ void main() {
 #else
     vec4 held = entered.y > 0.0 ? begin_in_mesh() : vec4(0.0);
 #endif
-    Line line = line_through(vec2(pixel) + 0.5 + vec2(frame.first_column, frame.first_row));
-    imageStore(accumulated, pixel, through_cells(line, entered, held));
+    CellRay ray = cell_ray(vec2(pixel) + 0.5);
+    imageStore(accumulated, pixel, through_cells(ray, entered, held));
 }

@@ -4,7 +4,7 @@
 // GOES_ON: the ray goes on with what RES holds. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [ORTHOGRAPHIC], [SURFACE], [IN_VOLUME]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [SURFACE], [IN_VOLUME], [FROM_WITHIN]
 
 #include "shared/tet_loop.glsl"
 
@@ -24,6 +24,6 @@ void main() {
 #else
     vec4 held = entered.y > 0.0 ? begin_in_mesh() : vec4(0.0);
 #endif
-    Line line = line_through(gl_FragCoord.xy + vec2(frame.first_column, frame.first_row));
-    gathered = through_cells(line, entered, held);
+    CellRay ray = cell_ray(gl_FragCoord.xy);
+    gathered = through_cells(ray, entered, held);
 }

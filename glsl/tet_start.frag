@@ -12,9 +12,7 @@
 #endif
 
 // As in boundary.glsl.
-layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
-    uvec4 list[];
-} tet_boundary;
+layout(set = 0, binding = 64) uniform usamplerBuffer tet_boundary;
 
 layout(set = 0, binding = 66) uniform sampler2D tet_entry;
 
@@ -30,7 +28,7 @@ layout(location = 2) out vec4 gathered;
 
 void main() {
     vec4 entered = texelFetch(tet_entry, ivec2(gl_FragCoord.xy), 0);
-    uint side = entered.y > 0.0 ? tet_boundary.list[2u * (uint(entered.y) - 1u)].x : 0u;
+    uint side = entered.y > 0.0 ? texelFetch(tet_boundary, int(2u * (uint(entered.y) - 1u))).x : 0u;
     cell = side > 0u ? vec2(float((side - 1u) >> 2) + 1.0, float((side - 1u) & 3u)) : vec2(0.0);
     point = entered.zw;
 #ifdef VALUES

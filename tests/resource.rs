@@ -73,7 +73,9 @@ fn scenes() -> Vec<Scene> {
         s.volume.builtin = Some("tets-ball:2".to_owned());
         (s.sampling.classification, s.sampling.table) = (Classification::PreIntegrated, 4);
     });
+    let on_surfaces = scene(|s| (s.volume.builtin, s.surface.iso) = (Some("tets-ball:2".to_owned()), Some(0.5)));
     vec![
+        on_surfaces,
         by_table,
         within,
         shells,

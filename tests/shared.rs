@@ -121,7 +121,7 @@ fn slices() -> Layout {
 }
 
 fn tet_view() -> Layout {
-    layout!(TetView { table, middle, lengths })
+    layout!(TetView { table, square, near, middle, corner, slope, depth })
 }
 
 fn slice_cut() -> Layout {

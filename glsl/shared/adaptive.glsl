@@ -14,10 +14,7 @@ layout(constant_id = 60) const uint VOXEL_DOUBLINGS = 0u;
 struct AdaptiveWay {
     // Where the step ends, in steps of the shortest length from the entry point.
     uint at;
-    // Reference lengths of the step that are left, and x at both ends of them.
-    float lengths;
-    float front;
-    float back;
+    EvenWay on_step;
     // The length of the steps to come, in the shortest ones, and how many are left for which it holds. A step shorter than a voxel is
     // allowed where all of a voxel around is, so that it holds for as many as make one.
     uint stride;
@@ -25,19 +22,24 @@ struct AdaptiveWay {
 };
 
 AdaptiveWay begin_way(Ray ray, uint at) {
-    return AdaptiveWay(at, 0.0, 0.0, sample_volume(ray, float(at)), 1u, 0u);
+    return AdaptiveWay(at, even_way(0.0, sample_volume(ray, float(at)), 0.0), 1u, 0u);
+}
+
+// Whether anything is left of the step.
+bool in_step(AdaptiveWay way) {
+    return way.on_step.gone < 1.0;
 }
 
 // Whether anything is left of the ray.
 bool goes_on(Ray ray, AdaptiveWay way) {
-    return way.lengths > 0.0 || float(way.at) < ray.steps;
+    return in_step(way) || float(way.at) < ray.steps;
 }
 
 // Goes a part of a step further along the ray, or over a step on which nothing shows: its premultiplied colour and opacity.
 //
 // Parts and not steps, so that rays whose steps have one part need not wait for others.
 vec4 adaptive_part(Ray ray, inout AdaptiveWay way) {
-    if (way.lengths <= 0.0) {
+    if (!in_step(way)) {
         float begin = float(way.at);
         bool shows = true;
         if (way.left_over == 0u) {
@@ -51,15 +53,10 @@ vec4 adaptive_part(Ray ray, inout AdaptiveWay way) {
         way.left_over -= 1u;
         float end = min(float(way.at), ray.steps);
         // Where nothing shows as well: steps that need it find it in one place.
-        way.front = way.back;
-        way.back = sample_volume(ray, end);
+        way.on_step = even_way(way.on_step.back, sample_volume(ray, end), shows ? (end - begin) * frame.exponent : 0.0);
         if (!shows) {
             return vec4(0.0);
         }
-        way.lengths = (end - begin) * frame.exponent;
     }
-    Part part = part_from(way.front, way.back, way.lengths);
-    way.front = part.to;
-    way.lengths = part.share >= 1.0 ? 0.0 : way.lengths * (1.0 - part.share);
-    return part.light;
+    return next_part(way.on_step);
 }

@@ -1,21 +1,21 @@
 // Faces of the boundary of a mesh, by which rays enter. Needs way.glsl.
 
-// Two rows a face: one more than its side (cells.glsl), and its three corners, which go round to the left seen from outside; then the faces beside it, over the edges
-// from each of its corners to the next.
-layout(set = 0, binding = 64, std430) readonly buffer TetBoundary {
-    uvec4 list[];
-} tet_boundary;
+// Two rows a face: one more than its side (cells.glsl), and its three corners, which go round to the left seen from outside; then the faces
+// beside it, over the edges from each of its corners to the next, and the number of the corner opposite to it.
+layout(set = 0, binding = 64) uniform usamplerBuffer tet_boundary;
 
-// A face, and whether its edges go round the ray to the left, from the first corner on: none does where the ray enters by it.
+// A face, but for where the ray passes through it, and whether its edges go round the ray to the left, from the first corner on: none does
+// where the ray enters by it.
 struct Entrance {
     Way way;
     bvec3 lefts;
 };
 
 Entrance entrance_by(Line line, uint face) {
-    uvec4 row = tet_boundary.list[2u * face];
+    uvec4 row = texelFetch(tet_boundary, int(2u * face));
     Entrance entrance;
     entrance.way.side = row.x;
+    entrance.way.apex = texelFetch(tet_boundary, int(2u * face + 1u)).w;
     entrance.way.a = seen(line, row.y);
     entrance.way.b = seen(line, row.z);
     entrance.way.c = seen(line, row.w);
@@ -24,6 +24,5 @@ Entrance entrance_by(Line line, uint face) {
     Turn ca = turn(entrance.way.c, entrance.way.a);
     entrance.way.areas = vec3(bc.area, ca.area, ab.area);
     entrance.lefts = bvec3(ab.left, bc.left, ca.left);
-    entrance.way.at = face_point(entrance.way);
     return entrance;
 }

@@ -2,20 +2,23 @@
 // cell's own gradient [Weiler03 "Isosurface Ray Casting"]. Twin: src/scene/tetrahedra/surface.rs. Needs cells.glsl, surface.glsl,
 // phong.glsl and projection.glsl; with IN_VOLUME cell_integral.glsl or cell_table.glsl.
 
+// Vertices in volume space, and their x.
+layout(set = 0, binding = 62) uniform samplerBuffer tet_points;
+
 // A vector along the gradient of x in a cell of those corners, or against it: lights do not tell the two apart.
 vec3 cell_gradient(uvec4 corners) {
-    vec4 first = tet_points.list[corners.x];
-    vec4 a = tet_points.list[corners.y] - first;
-    vec4 b = tet_points.list[corners.z] - first;
-    vec4 c = tet_points.list[corners.w] - first;
+    vec4 first = texelFetch(tet_points, int(corners.x));
+    vec4 a = texelFetch(tet_points, int(corners.y)) - first;
+    vec4 b = texelFetch(tet_points, int(corners.z)) - first;
+    vec4 c = texelFetch(tet_points, int(corners.w)) - first;
     return cross(b.xyz, c.xyz) * a.w + cross(c.xyz, a.xyz) * b.w + cross(a.xyz, b.xyz) * c.w;
 }
 
 // What shows of a surface in a cell of those corners at a depth from the middle of the mesh, premultiplied.
-vec4 shown_surface(Line line, int level, uvec4 corners, float depth) {
+vec4 shown_surface(CellRay ray, int level, uvec4 corners, float depth) {
     vec4 unlit = surface_levels.list[level].color;
-    vec3 point = fma(vec3(depth), line.direction, line.origin);
-    vec3 color = lit(unlit.rgb, cell_gradient(corners), point, -line.direction / line.stretch);
+    vec3 point = fma(vec3(depth), ray.direction, ray.origin);
+    vec3 color = lit(unlit.rgb, cell_gradient(corners), point, -normalize(ray.direction));
     return vec4(color * unlit.a, unlit.a);
 }
 
@@ -30,14 +33,14 @@ int levels_around(float x) {
 
 #ifdef IN_VOLUME
 // What the volume brings between two places of a ray, each a depth and x.
-vec4 volume_between(Line line, vec2 from, vec2 to) {
-    return cell_integral(from.y, to.y, max(to.x - from.x, 0.0) * line.stretch * tet_view.lengths);
+vec4 volume_between(CellRay ray, vec2 from, vec2 to) {
+    return cell_integral(from.y, to.y, max(to.x - from.x, 0.0) * ray.lengths);
 }
 #endif
 
 // What a cell of those corners brings to a ray between two places, each a depth and x: all surfaces that it crosses there, and where it
 // begins the innermost that it begins within.
-vec4 through_surfaces(Line line, uvec4 corners, bool begins, vec2 from, vec2 to) {
+vec4 through_surfaces(CellRay ray, uvec4 corners, bool begins, vec2 from, vec2 to) {
     int within = levels_around(from.y);
     int rise = levels_around(to.y) - within;
     int crossed = abs(rise);
@@ -52,9 +55,9 @@ vec4 through_surfaces(Line line, uvec4 corners, bool begins, vec2 from, vec2 to)
         float share = first ? 0.0 : clamp((x - from.y) / (to.y - from.y), 0.0, 1.0);
         vec2 place = vec2(mix(from.x, to.x, share), x);
 #ifdef IN_VOLUME
-        light = composite(light, volume_between(line, at, place));
+        light = composite(light, volume_between(ray, at, place));
 #endif
-        light = composite(light, shown_surface(line, level, corners, place.x));
+        light = composite(light, shown_surface(ray, level, corners, place.x));
         at = place;
         --left_over;
         if (left_over <= 0) {
@@ -62,7 +65,7 @@ vec4 through_surfaces(Line line, uvec4 corners, bool begins, vec2 from, vec2 to)
         }
     }
 #ifdef IN_VOLUME
-    light = composite(light, volume_between(line, at, to));
+    light = composite(light, volume_between(ray, at, to));
 #endif
     return light;
 }

@@ -1,21 +1,14 @@
 // Cells of a mesh and the way of a ray through them. Twin: src/scene/tetrahedra/walk.rs. Needs seen.glsl and way.glsl.
 
-// The exclusive or of the numbers of each cell's corners: of three of them and it the fourth.
-layout(set = 0, binding = 62, std430) readonly buffer TetCodes {
-    uint list[];
-} tet_codes;
-
-// One more than the side across the face opposite to each corner of a cell, corners by rising numbers: its cell times 4, and the place of the
-// corner opposite to it. 0 on the boundary: some drivers run loops for invocations that nobody sees, which read 0 everywhere, and have to end.
-layout(set = 0, binding = 63, std430) readonly buffer TetAcross {
-    uint list[];
-} tet_across;
+// Across the face opposite to each corner of a cell, corners by rising numbers: one more than the side there, as its cell times 4 and the
+// place of the corner opposite to it, and the number of that corner. 0 on the boundary: some drivers run loops for invocations that nobody
+// sees, which read 0 everywhere, and have to end.
+layout(set = 0, binding = 63) uniform usamplerBuffer tet_across;
 
 // Goes through the cell to the next one. The last cell of a chain has nothing next.
 Way leave(Line line, Way way) {
     uint cell = (way.side - 1u) >> 2;
-    uint number = tet_codes.list[cell] ^ way.a.number ^ way.b.number ^ way.c.number;
-    Seen apex = seen(line, number);
+    Seen apex = seen(line, way.apex);
     Turn a = turn(apex, way.a);
     Turn b = turn(apex, way.b);
     Turn c = turn(apex, way.c);
@@ -42,7 +35,9 @@ Way leave(Line line, Way way) {
         dropped = way.b.number;
     }
     uint place = uint(dropped > next.a.number) + uint(dropped > next.b.number) + uint(dropped > next.c.number);
-    next.side = tet_across.list[4u * cell + place];
+    uvec2 across = texelFetch(tet_across, int(4u * cell + place)).xy;
+    next.side = across.x;
+    next.apex = across.y;
     next.at = face_point(next);
     return next;
 }

@@ -4,21 +4,17 @@
 float log_1_plus(float x) {
     float s = x / (2.0 + x);
     float q = s * s;
-    float series = fma(q, fma(q, fma(q, fma(q, fma(q, 1.0 / 11.0, 1.0 / 9.0), 1.0 / 7.0), 0.2), 1.0 / 3.0), 1.0);
+    float r = q * q;
+    float series = fma(r * r, fma(q, 1.0 / 11.0, 1.0 / 9.0), fma(r, fma(q, 1.0 / 7.0, 0.2), fma(q, 1.0 / 3.0, 1.0)));
     return 2.0 * s * series;
 }
 
 // exp(x) - 1 for x in [-0.5, 0].
 float exp_minus_1(float x) {
-    float series = 1.0 / 40320.0;
-    series = fma(series, x, 1.0 / 5040.0);
-    series = fma(series, x, 1.0 / 720.0);
-    series = fma(series, x, 1.0 / 120.0);
-    series = fma(series, x, 1.0 / 24.0);
-    series = fma(series, x, 1.0 / 6.0);
-    series = fma(series, x, 0.5);
-    series = fma(series, x, 1.0);
-    return x * series;
+    float square = x * x;
+    float low = fma(square, fma(x, 1.0 / 24.0, 1.0 / 6.0), fma(x, 0.5, 1.0));
+    float high = fma(square, fma(x, 1.0 / 40320.0, 1.0 / 5040.0), fma(x, 1.0 / 720.0, 1.0 / 120.0));
+    return x * fma(square * square, high, low);
 }
 
 // 1 - (1 - alpha)^exponent: opacity of a segment `exponent` reference lengths long; `clear` is 1 - alpha.

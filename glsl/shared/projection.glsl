@@ -37,6 +37,9 @@ vec4 joined(vec4 front, vec4 behind) {
     }
 }
 
+// Read once, before loops (transfer.glsl).
+float ends_above = frame.termination;
+
 // Whether a ray whose pixel holds that needs no further samples, by a `margin` where that is a matter of opacity.
 bool ended(vec4 held, float margin) {
     switch (PROJECTION) {
@@ -48,7 +51,7 @@ bool ended(vec4 held, float margin) {
     case XRAY:
         return false;
     default:
-        return held.a > frame.termination + margin;
+        return held.a > ends_above + margin;
     }
 }
 

@@ -1,87 +1,66 @@
-// Vertices of a mesh as a ray sees them, and on which side of an edge it passes, exactly for places across it that are rounded once.
-// Twin: src/scene/tetrahedra/seen.rs, where it is told why no ray is lost. Needs frame.glsl, double_float.glsl and ray.glsl.
+// Vertices of a mesh as a ray sees them, and on which side of an edge it passes, exactly for places across it that are rounded once more than
+// vertices are. Twin: src/scene/tetrahedra/seen.rs, where it is told why no ray is lost. Needs double_float.glsl.
 //
-// Departure: depths count from the middle of the mesh, so that places have the digits of f32 where vertices are.
+// Departures: 1. Vertices are where the view has them, in columns, rows and depth, so that a place across a ray takes two products: without
+// perspective it is what is left of columns and rows, and with it these are times the depth. 2. Depths count from the middle of the mesh,
+// so that places have the digits of f32 where vertices are.
 
-// Vertices in volume space, and their x.
-layout(set = 0, binding = 60, std430) readonly buffer TetPoints {
-    vec4 list[];
-} tet_points;
+// Vertices as the view has them: columns and rows from the middle of the picture, times the depth with perspective; the depth; x.
+layout(set = 0, binding = 60) uniform samplerBuffer tet_places;
 
 layout(set = 0, binding = 61, std140) uniform TetView {
     // Of the table of ways: the first value, nodes in a unit of x, and nodes in a reference length.
     vec4 table;
-    // Depth of the middle of the mesh, a double-float.
+    // Of the square of what a ray comes on in a unit of depth, in reference lengths: all of it in the middle of the picture, and what the squares
+    // of a column and of a row from there add.
+    vec3 square;
+    // Where rays begin.
+    float near;
+    // What columns and rows are times in the middle of the mesh, a double-float: its depth with perspective, else 1.
     vec2 middle;
-    // Reference lengths in a unit of volume space.
-    float lengths;
+    // Column and row of the upper left corner of targets, from the middle of the picture.
+    vec2 corner;
+    // What columns and rows are times more a unit of depth behind: 1 with perspective, else 0.
+    float slope;
+    // The depth of the middle of the mesh.
+    float depth;
 } tet_view;
 
+// The ray through a place of the picture.
 struct Line {
-    // Where it is at the depth of the middle of the mesh: high parts, low parts.
-    vec3 origin;
-    vec3 rest;
-    // What a unit along the axis that is longest along it is along the two others.
+    // What its column and row are times in the middle of the mesh: high parts, low parts.
+    vec2 origin;
+    vec2 rest;
+    // What they are times more a unit of depth behind.
     vec2 shear;
-    // The direction along that axis.
-    float along;
-    // That axis, and whether the direction points down it.
-    int axis;
-    bool down;
-    // The direction, volume space, and its length.
-    vec3 direction;
-    float stretch;
 };
 
 struct Seen {
     uint number;
     vec2 place;
-    // From the middle of the mesh.
     float depth;
     float value;
 };
 
-// The two axes across a line and the one along, so that they turn as those of space do.
-vec3 in_line(Line line, vec3 v) {
-    vec3 turned = line.axis == 0 ? v.yzx : line.axis == 1 ? v.zxy : v;
-    return line.down ? turned.yxz : turned;
-}
-
-// The ray through a place of the picture.
+// `pixel`: from the upper left corner of targets, centres at + 0.5.
 Line line_through(vec2 pixel) {
+    vec2 from_middle = pixel + tet_view.corner;
     Line line;
-    vec2 square = vec2(0.0);
-    vec2 directions[3];
-    vec3 direction;
-    for (int axis = 0; axis < 3; ++axis) {
-        directions[axis] = ray_direction(pixel, axis);
-        direction[axis] = directions[axis].x;
-        vec2 origin = df_add(ray_origin(pixel, axis), df_multiply(tet_view.middle, directions[axis]));
-        line.origin[axis] = origin.x;
-        line.rest[axis] = origin.y;
-        square = df_add(square, df_multiply(directions[axis], directions[axis]));
+    for (int axis = 0; axis < 2; ++axis) {
+        vec2 product = two_product(from_middle[axis], tet_view.middle.x);
+        line.origin[axis] = product.x;
+        line.rest[axis] = product.y + from_middle[axis] * tet_view.middle.y;
     }
-    vec3 size = abs(direction);
-    line.axis = size.y > size.x ? (size.z > size.y ? 2 : 1) : size.z > size.x ? 2 : 0;
-    vec2 along = line.axis == 0 ? directions[0] : line.axis == 1 ? directions[1] : directions[2];
-    line.down = along.x < 0.0;
-    vec2 first = line.axis == 0 ? directions[1] : line.axis == 1 ? directions[2] : directions[0];
-    vec2 second = line.axis == 0 ? directions[2] : line.axis == 1 ? directions[0] : directions[1];
-    precise vec2 shear = vec2(df_divide(first, along).x, df_divide(second, along).x);
-    line.shear = line.down ? shear.yx : shear;
-    line.along = along.x;
-    line.direction = direction;
-    line.stretch = df_sqrt(square).x;
+    line.shear = tet_view.slope * from_middle;
     return line;
 }
 
 Seen seen(Line line, uint number) {
-    vec4 vertex = tet_points.list[number];
-    precise vec3 arm = (vertex.xyz - line.origin) - line.rest;
-    precise vec3 turned = in_line(line, arm);
-    precise vec2 along = line.shear * turned.z;
-    precise vec2 place = turned.xy - along;
-    return Seen(number, place, turned.z / line.along, vertex.w);
+    vec4 vertex = texelFetch(tet_places, int(number));
+    precise vec2 arm = (vertex.xy - line.origin) - line.rest;
+    precise vec2 along = line.shear * vertex.z;
+    precise vec2 place = arm - along;
+    return Seen(number, place, vertex.z, vertex.w);
 }
 
 // Which way two vertices go round the line, and twice the area of the triangle from it to them, above 0 to the left.

@@ -142,7 +142,7 @@ vec4 gather(Ray ray, vec4 held) {
     while (!done && goes_on(ray, way)) {
         held = joined(held, adaptive_part(ray, way));
         // T is tested after whole steps.
-        done = way.lengths > 0.0 ? held.a >= 1.0 : is_done(held);
+        done = in_step(way) ? held.a >= 1.0 : is_done(held);
         if (done || !goes_on(ray, way)) {
             break;
         }

@@ -23,19 +23,21 @@ vec4 begin_in_mesh() {
 }
 
 // Goes on through cells from a face of the boundary, where there is one, to the next, with what the ray holds.
-vec4 through_cells(Line line, vec4 entered, vec4 held) {
-    Entrance entrance = entrance_by(line, uint(max(entered.y, 1.0)) - 1u);
+vec4 through_cells(CellRay ray, vec4 entered, vec4 held) {
+    Entrance entrance = entrance_by(ray.line, uint(max(entered.y, 1.0)) - 1u);
     Way way = entrance.way;
+    way.at = entered.zw;
     way.side = entered.y > 0.0 && !any(entrance.lefts) ? way.side : NOTHING;
     bool enters = true;
     // No ray goes through more cells than there are.
-    for (int left_over = tet_codes.list.length(); left_over > 0 && way.side != NOTHING && !IS_ENDED(held); --left_over) {
-        Way next = leave(line, way);
-        held = joined(held, cell_light(line, way, next, enters));
+    for (int left_over = textureSize(tet_across); left_over > 0 && way.side != NOTHING && !IS_ENDED(held);) {
+        Way next = leave(ray.line, way);
+        held = joined(held, cell_light(ray, way, next, enters));
         way = next;
         enters = false;
         // Asked at the end as well: segment.glsl.
-        if (way.side == NOTHING || IS_ENDED(held)) {
+        --left_over;
+        if (left_over <= 0 || way.side == NOTHING || IS_ENDED(held)) {
             break;
         }
     }

@@ -42,7 +42,7 @@ pub fn reads(context: &Context) -> Vec<Resource> {
         false => classified_by(context).flat_map(|feature| (feature.reads)(context)).collect(),
     };
     if context.has(&ISO_SURFACE) {
-        reads.extend([resource::SURFACE_LEVELS, lights::lights(context)]);
+        reads.extend([resource::TET_POINTS, resource::SURFACE_LEVELS, lights::lights(context)]);
     }
     reads
 }

@@ -289,6 +289,8 @@ impl Compiler<'_> {
                     _ => &self.nearest,
                 };
                 bound.push((resource.name(), Bound::Sampled(image, sampler, layout)));
+            } else if let Some(DeviceObject::Texels(texels)) = self.made(resource) {
+                bound.push((resource.name(), Bound::Texels(texels)));
             } else if let Some(buffer) = self.made(resource).and_then(DeviceObject::buffer) {
                 let of =
                     if matches!(resource.of.kind, ResourceKind::Uniform(_)) { Bound::Uniform } else { Bound::Storage };

@@ -10,25 +10,26 @@ use crate::error::{Error, Result};
 use crate::part::resource::{Facts, Resource, ResourceKind, Texture};
 use crate::resource;
 use crate::scene::settings::Filter;
-use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place};
+use crate::vulkan::{Buffer, BufferInfo, Device, Image, ImageInfo, Place, TexelBuffer};
 
-/// An image or a buffer.
+/// An image or a buffer; one of texels is a buffer with a view.
 pub enum DeviceObject {
     Image(Image),
     Buffer(Buffer),
+    Texels(TexelBuffer),
 }
 
 impl DeviceObject {
     pub fn image(&self) -> Option<&Image> {
         match self {
             Self::Image(image) => Some(image),
-            Self::Buffer(_) => None,
+            Self::Buffer(_) | Self::Texels(_) => None,
         }
     }
 
     pub fn buffer(&self) -> Option<&Buffer> {
         match self {
-            Self::Buffer(buffer) => Some(buffer),
+            Self::Buffer(buffer) | Self::Texels(TexelBuffer { buffer, .. }) => Some(buffer),
             Self::Image(_) => None,
         }
     }
@@ -36,7 +37,7 @@ impl DeviceObject {
     pub fn bytes(&self) -> u64 {
         match self {
             Self::Image(image) => image.bytes(),
-            Self::Buffer(buffer) => buffer.bytes(),
+            Self::Buffer(buffer) | Self::Texels(TexelBuffer { buffer, .. }) => buffer.bytes(),
         }
     }
 
@@ -45,7 +46,7 @@ impl DeviceObject {
         match self {
             Self::Image(image) => Bindable::Image(image),
             Self::Buffer(buffer) if matches!(resource.of.kind, ResourceKind::Uniform(_)) => Bindable::Uniform(buffer),
-            Self::Buffer(buffer) => Bindable::Storage(buffer),
+            Self::Buffer(buffer) | Self::Texels(TexelBuffer { buffer, .. }) => Bindable::Storage(buffer),
         }
     }
 }
@@ -76,6 +77,13 @@ pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[
             let image = image(device, resource, texture, facts)?;
             upload::image(device, &image, bytes)?;
             Ok(DeviceObject::Image(image))
+        }
+        ResourceKind::Texels(format, _) => {
+            let (size, usage) = (bytes.len() as u64, vk::BufferUsageFlags::empty());
+            let info = BufferInfo { name: resource.numbered(), size, usage, place: Place::Upload };
+            let texels = TexelBuffer::new(device, info, *format)?;
+            texels.buffer.write(0, bytes)?;
+            Ok(DeviceObject::Texels(texels))
         }
         _ => {
             let buffer = buffer(device, resource, bytes.len() as u64, Place::Upload)?;

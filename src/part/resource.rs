@@ -61,6 +61,9 @@ pub enum ResourceKind {
     Polygons(Bytes),
     Uniform(Bytes),
     Storage(Bytes),
+    /// Texels of a format in a row, which shaders read by their numbers: drivers of CPUs gather these for several invocations at once, where
+    /// they read storage buffers invocation by invocation.
+    Texels(vk::Format, Bytes),
     /// Copies go through it.
     Staging(Bytes),
     /// An image that shaders read.
@@ -171,6 +174,7 @@ impl Resource {
             | ResourceKind::Polygons(bytes)
             | ResourceKind::Uniform(bytes)
             | ResourceKind::Storage(bytes)
+            | ResourceKind::Texels(_, bytes)
             | ResourceKind::Staging(bytes) => bytes(facts, self.index),
             ResourceKind::Texture(texture) => {
                 let texels: usize = (texture.extent)(facts).iter().product();

@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::single_pass::compute_format;
 use super::{constants, cull};
-use crate::feature::{EARLY_ENDS, ISO_SURFACE, ORTHOGRAPHIC, cells};
+use crate::feature::{EARLY_ENDS, ISO_SURFACE, cells};
 use crate::geometry::{BOUNDARY, SCREEN};
 use crate::glsl::Shader;
 use crate::part::access::{Access, Usage};
@@ -19,10 +19,10 @@ use crate::scene::settings::{Cull, Mark};
 use crate::twin;
 
 /// What every shader reads that sees vertices.
-const VERTICES: [Resource; 3] = [resource::FRAME, resource::TET_VIEW, resource::TET_POINTS];
+const VERTICES: [Resource; 2] = [resource::TET_VIEW, resource::TET_PLACES];
 
 /// What goes from cell to cell reads besides.
-const CELLS: [Resource; 2] = [resource::TET_CODES, resource::TET_ACROSS];
+const CELLS: [Resource; 2] = [resource::FRAME, resource::TET_ACROSS];
 
 /// Whether rays begin within the mesh, behind the layer 0 then.
 pub fn begins(context: &Context) -> bool {
@@ -30,13 +30,12 @@ pub fn begins(context: &Context) -> bool {
 }
 
 /// The faces behind which rays begin within the mesh.
-pub fn begin(context: &Context) -> Step {
+pub fn begin() -> Step {
     let mut draw = Draw::plain(&SCREEN, "tet_enter.frag", twin::tetrahedra::enter);
     let mut accesses = vec![Usage::Vertices.of(resource::SCREEN_CORNERS), Usage::Sampled.of(resource::TET_BEGIN)];
     accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
     accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
     draw.define(["BEGINS"]);
-    draw.define(ORTHOGRAPHIC.define(context));
     accesses.push(Usage::Color.of(resource::TET_ENTRY));
     Step::drawn("tet_begin".to_owned(), Group::Setup, 0, accesses, draw)
 }
@@ -47,7 +46,6 @@ pub fn enter(context: &Context, layer: u32) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::TET_CORNERS), Usage::Sampled.of(resource::PLACEMENT)];
     accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
     accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
-    draw.define(ORTHOGRAPHIC.define(context));
     if let Some(before) = layer.checked_sub(1) {
         accesses.push(Usage::Sampled.of(resource::TET_ENTRY.at(before as u16)));
         draw.define(["LAYER_BEFORE"]);
@@ -88,13 +86,13 @@ pub fn single_pass_compute(context: &Context, layer: u32) -> Step {
 
 /// What the loop behind a layer reads, its defines and its constants.
 fn through_cells(context: &Context, layer: u32) -> (Vec<Resource>, Vec<&'static str>, Vec<Constant>) {
-    let mut reads = [&VERTICES[..], &CELLS].concat();
+    let mut reads = [VERTICES, CELLS].concat();
     reads.extend([resource::TET_BOUNDARY, resource::TET_ENTRY.at(layer as u16)]);
     reads.extend(cells::reads(context));
     let mut defines = cells::defines(context);
-    defines.extend(ORTHOGRAPHIC.define(context));
     defines.extend(EARLY_ENDS.define(context));
     defines.extend((layer > 0).then_some("GOES_ON"));
+    defines.extend((layer == 0 && begins(context)).then_some("FROM_WITHIN"));
     let mut constants = cells::constants(context);
     constants.push(constants::projection(context));
     (reads, defines, constants)
@@ -146,15 +144,16 @@ pub fn propagate(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
     let mut draw = Draw::plain(&SCREEN, "tet_propagation.frag", twin::tetrahedra::propagate);
     let (from, to) = ((pass % 2) as u16, ((pass + 1) % 2) as u16);
     let mut accesses = vec![Usage::Vertices.of(resource::SCREEN_CORNERS)];
-    let read = VERTICES.into_iter().chain(CELLS).chain([resource::TET_CELLS]);
-    accesses.extend(read.map(|resource| Usage::Sampled.of(resource)));
+    accesses.extend(
+        VERTICES.into_iter().chain(CELLS).chain([resource::TET_CELLS]).map(|resource| Usage::Sampled.of(resource)),
+    );
     accesses.extend(cells::reads(context).into_iter().map(|resource| Usage::Sampled.of(resource)));
     accesses.extend([resource::TET_CELL, resource::TET_POINT].map(|set| Usage::Sampled.of(set.at(from))));
     accesses.extend([resource::TET_CELL, resource::TET_POINT].map(|set| Usage::Color.of(set.at(to))));
     accesses.push(Usage::Color.of(resource::ACCUMULATED));
     draw.define(cells::defines(context));
     draw.define((pass == 0 && context.has(&ISO_SURFACE)).then_some("ENTERS"));
-    draw.define(ORTHOGRAPHIC.define(context));
+    draw.define(begins(context).then_some("FROM_WITHIN"));
     draw.specialize(cells::constants(context));
     draw.specialize([constants::projection(context)]);
     draw.blend = context.projection().blend;

@@ -1,6 +1,6 @@
 //! Meshes of tetrahedra, and what rays hold on their way through them [Weiler03 "Mesh Data", "Traversal Data"].
 //!
-//! Mesh data are in storage buffers, which take less time than textures do (`benches/results/lavapipe-22.3/tetrahedra.md`).
+//! Mesh data are in buffers of texels, which take less time than storage buffers and images do (`benches/results/lavapipe-22.3/tetrahedra.md`).
 
 use ash::vk;
 
@@ -31,7 +31,9 @@ pub const TET_POINTS: Resource = Resource::new(&TET_POINTS_INFO);
 static TET_POINTS_INFO: ResourceInfo = of_mesh(
     "tet_points",
     "vertices of the mesh in volume space, and their x",
-    ResourceKind::Storage(|facts, _| (size_of::<[f32; 4]>() * of(facts, |mesh| mesh.points.len())) as u64),
+    ResourceKind::Texels(vk::Format::R32G32B32A32_SFLOAT, |facts, _| {
+        (size_of::<[f32; 4]>() * of(facts, |mesh| mesh.points.len())) as u64
+    }),
     |facts| {
         let rows = of(facts, |mesh| {
             let row = |([x, y, z], value): (&[f32; 3], &f32)| [*x, *y, *z, *value];
@@ -41,12 +43,28 @@ static TET_POINTS_INFO: ResourceInfo = of_mesh(
     },
 );
 
+/// Vertices as a view has them.
+pub const TET_PLACES: Resource = Resource::new(&TET_PLACES_INFO);
+static TET_PLACES_INFO: ResourceInfo = ResourceInfo::of_frame(
+    "tet_places",
+    "vertices of the mesh in columns, rows and depth, and their x, rows of seen.glsl",
+    ResourceKind::Texels(vk::Format::R32G32B32A32_SFLOAT, |facts, _| {
+        (size_of::<[f32; 4]>() * of(facts, |mesh| mesh.points.len())) as u64
+    }),
+    |facts| {
+        let places = of(facts, |mesh| shared::tet_places(mesh, facts.view));
+        bytemuck::cast_slice(&places).to_vec().into()
+    },
+);
+
 /// Corners of cells.
 pub const TET_CELLS: Resource = Resource::new(&TET_CELLS_INFO);
 static TET_CELLS_INFO: ResourceInfo = of_mesh(
     "tet_cells",
     "numbers of the four vertices of each cell, rising",
-    ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.cells.len())) as u64),
+    ResourceKind::Texels(vk::Format::R32G32B32A32_UINT, |facts, _| {
+        (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.cells.len())) as u64
+    }),
     |facts| {
         let rising = |cell: &[u32; 4]| {
             let mut corners = *cell;
@@ -58,26 +76,15 @@ static TET_CELLS_INFO: ResourceInfo = of_mesh(
     },
 );
 
-/// Corners of cells in a number.
-pub const TET_CODES: Resource = Resource::new(&TET_CODES_INFO);
-static TET_CODES_INFO: ResourceInfo = of_mesh(
-    "tet_codes",
-    "the exclusive or of the numbers of the four vertices of each cell",
-    ResourceKind::Storage(|facts, _| (size_of::<u32>() * of(facts, |mesh| mesh.cells.len())) as u64),
-    |facts| {
-        let code = |cell: &[u32; 4]| cell.iter().fold(0, |code, corner| code ^ corner);
-        let codes = of(facts, |mesh| mesh.cells.iter().map(code).collect::<Vec<_>>());
-        bytemuck::cast_slice(&codes).to_vec().into()
-    },
-);
-
 /// Neighbours of cells.
 pub const TET_ACROSS: Resource = Resource::new(&TET_ACROSS_INFO);
 static TET_ACROSS_INFO: ResourceInfo = of_mesh(
     "tet_across",
     "one more than the side across the face opposite to each vertex of a cell, as its cell times 4 and the place of the vertex opposite to it \
-     there; 0 on the boundary",
-    ResourceKind::Storage(|facts, _| (size_of::<[u32; 4]>() * of(facts, |mesh| mesh.across.len())) as u64),
+     there, and that vertex; 0 on the boundary",
+    ResourceKind::Texels(vk::Format::R32G32_UINT, |facts, _| {
+        (size_of::<[[u32; 2]; 4]>() * of(facts, |mesh| mesh.across.len())) as u64
+    }),
     |facts| {
         let rows = of(facts, |mesh| (0..mesh.cells.len()).map(|cell| across(mesh, cell)).collect::<Vec<_>>());
         bytemuck::cast_slice(&rows).to_vec().into()
@@ -86,16 +93,21 @@ static TET_ACROSS_INFO: ResourceInfo = of_mesh(
 
 /// A side of a cell by the place of its corner among those of the cell by rising numbers.
 fn by_place(mesh: &Tetrahedra, side: u32) -> u32 {
-    let cell = mesh.cells[side as usize / 4];
-    let corner = cell[side as usize % 4];
-    side / 4 * 4 + cell.iter().filter(|other| **other < corner).count() as u32
+    let corner = opposite(mesh, side);
+    side / 4 * 4 + mesh.cells[side as usize / 4].iter().filter(|other| **other < corner).count() as u32
 }
 
-/// One more than the sides across those of a cell, by places; 0 on the boundary.
-fn across(mesh: &Tetrahedra, cell: usize) -> [u32; 4] {
-    let mut sides = [0; 4];
+/// The vertex opposite to a side of a cell.
+fn opposite(mesh: &Tetrahedra, side: u32) -> u32 {
+    mesh.cells[side as usize / 4][side as usize % 4]
+}
+
+/// One more than the sides across those of a cell, by places, and the vertices opposite to them; 0 on the boundary.
+fn across(mesh: &Tetrahedra, cell: usize) -> [[u32; 2]; 4] {
+    let mut sides = [[0; 2]; 4];
     for (corner, other) in mesh.across[cell].iter().enumerate().filter(|(_, other)| **other != NOTHING) {
-        sides[by_place(mesh, (4 * cell + corner) as u32) as usize % 4] = by_place(mesh, *other) + 1;
+        let place = by_place(mesh, (4 * cell + corner) as u32) as usize % 4;
+        sides[place] = [by_place(mesh, *other) + 1, opposite(mesh, *other)];
     }
     sides
 }
@@ -105,12 +117,14 @@ pub const TET_BOUNDARY: Resource = Resource::new(&TET_BOUNDARY_INFO);
 static TET_BOUNDARY_INFO: ResourceInfo = of_mesh(
     "tet_boundary",
     "of each face of the boundary one more than its side, its vertices and the numbers of the three faces beside it, rows of boundary.glsl",
-    ResourceKind::Storage(|facts, _| (size_of::<[[u32; 4]; 2]>() * of(facts, |mesh| mesh.boundary.len())) as u64),
+    ResourceKind::Texels(vk::Format::R32G32B32A32_UINT, |facts, _| {
+        (size_of::<[[u32; 4]; 2]>() * of(facts, |mesh| mesh.boundary.len())) as u64
+    }),
     |facts| {
         let rows = of(facts, |mesh| {
             let row = |(side, [a, b, c]): (&u32, &[u32; 3])| {
                 let [u, v, w] = FACES[*side as usize % 4].map(|corner| mesh.cells[*side as usize / 4][corner]);
-                [[by_place(mesh, *side) + 1, u, v, w], [*a, *b, *c, 0]]
+                [[by_place(mesh, *side) + 1, u, v, w], [*a, *b, *c, opposite(mesh, *side)]]
             };
             mesh.boundary.iter().zip(&mesh.beside).map(row).collect::<Vec<_>>()
         });
@@ -138,12 +152,9 @@ static TET_CORNERS_INFO: ResourceInfo = of_mesh(
 pub const TET_VIEW: Resource = Resource::new(&TET_VIEW_INFO);
 static TET_VIEW_INFO: ResourceInfo = ResourceInfo::of_frame(
     "tet_view",
-    "depth of the middle of the mesh and the unit of lengths, `TetView` of seen.glsl",
+    "rays by columns and rows, and the units of the table of ways, `TetView` of seen.glsl",
     ResourceKind::Uniform(|_, _| size_of::<shared::TetView>() as u64),
-    |facts| {
-        let view = facts.view.cells.as_deref().map(|view| shared::TetView::new(facts.scene, view));
-        view.iter().flat_map(|view| bytemuck::bytes_of(view).to_vec()).collect()
-    },
+    |facts| bytemuck::bytes_of(&shared::TetView::new(facts.scene, facts.view)).to_vec().into(),
 );
 
 /// Where rays begin within the mesh.

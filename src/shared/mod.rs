@@ -24,7 +24,7 @@ pub use single_rays::SingleRays;
 pub use slice::Slice;
 pub use slices::{SliceCut, Slices};
 pub use surface::{SurfaceLevel, light_rows, surface_levels};
-pub use tetrahedra::TetView;
+pub use tetrahedra::{TetView, tet_places};
 
 use bytemuck::{Pod, Zeroable};
 

@@ -7,7 +7,7 @@
 //! that of the lower number by more, along the first axis by more than along the second [Edelsbrunner and Mücke 1990].
 //!
 //! Places across the line are those of Woop, Benthin and Wald (Watertight Ray/Triangle Intersection, JCGT 2013). Twin:
-//! `glsl/shared/seen.glsl`.
+//! `glsl/shared/seen.glsl`, whose axes are those of the picture.
 
 use glam::DVec3;
 

@@ -25,6 +25,27 @@ pub fn difference(picture: &[[f32; 4]], twin: &CpuFrame, rounding: f64) -> Resul
 /// Whether a frame is its twin's: picture as [`difference`], counts but for the rays that f32 cannot decide. The twin
 /// interpolates in f64; `stated` is what the plan states where a texture unit does, else 0.
 pub fn held(shot: &Shot, twin: &CpuFrame, stated: f64) -> Result<f64, String> {
+    held_unless(shot, twin, stated, |_, _, _| false)
+}
+
+/// As [`held`], of frames whose updates look at every pixel as long as any ray is left, which may be one whose cells are undecided: such a
+/// ray may keep them going for `batch` passes more than its twin does, where its driver sees an edge on another side.
+pub fn held_in_batches(shot: &Shot, twin: &CpuFrame, stated: f64, batch: usize) -> Result<f64, String> {
+    let updates = &twin.counts.intermediate;
+    let all = updates.iter().copied().max().unwrap_or(0);
+    let end = updates.iter().rposition(|count| *count > 0).map_or(0, |last| last + 1);
+    held_unless(shot, twin, stated, |kind, pass, found| {
+        kind == "intermediate" && found == all && (end..end + batch).contains(&pass)
+    })
+}
+
+/// As [`held`], but that a pass of a kind may have the count for which `may` says so where pixels are undecided.
+fn held_unless(
+    shot: &Shot,
+    twin: &CpuFrame,
+    stated: f64,
+    may: impl Fn(&str, usize, u64) -> bool,
+) -> Result<f64, String> {
     let largest = difference(&shot.picture, twin, SAME_SUM + stated)?;
     let undecided = twin.undecided.iter().filter(|u| **u).count() as u64;
     let counts = counts(shot);
@@ -35,7 +56,7 @@ pub fn held(shot: &Shot, twin: &CpuFrame, stated: f64) -> Result<f64, String> {
             return Err(format!("{} {kind} passes where the twin has {}", found.len(), rule.len()));
         }
         for (pass, (found, rule)) in found.iter().zip(rule).enumerate() {
-            if found.abs_diff(*rule) > undecided {
+            if found.abs_diff(*rule) > undecided && !(undecided > 0 && may(kind, pass, *found)) {
                 let has = format!("{kind} pass {pass} has {found} fragments, its twin {rule}");
                 return Err(format!("{has}, {undecided} are undecided"));
             }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use depthleap::feature::BATCH;
 use depthleap::method::{TET_PROPAGATION, TET_SINGLE_PASS, TET_SINGLE_PASS_COMPUTE};
 use depthleap::projection::{MINIP, MIP, XRAY};
 use depthleap::read;
@@ -10,7 +11,7 @@ use depthleap::scene::settings::{Classification, LightSettings, Settings, Surfac
 use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
-use super::compare::{SAME_SUM, difference, held};
+use super::compare::{SAME_SUM, difference, held, held_in_batches};
 use super::scenes::{Stage, by, forms_in_turn};
 use crate::harness::{Need, Test, data, test};
 
@@ -148,7 +149,8 @@ fn all_methods(device: &Arc<Device>, scene: &Scene) {
     for form in forms_in_turn(device, &scene, shows) {
         let shot = stage.shoot(&scene, form);
         let own = stage.twin(&scene, form);
-        let largest = held(&shot, &own, 0.0).unwrap_or_else(|what| panic!("{form:?}: {what}"));
+        let largest =
+            held_in_batches(&shot, &own, 0.0, BATCH as usize).unwrap_or_else(|what| panic!("{form:?}: {what}"));
         // Which cells a ray goes through is open near edges; what they show together is not.
         let all = if ends {
             largest
