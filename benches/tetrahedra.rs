@@ -99,7 +99,10 @@ fn ours(device: &Arc<Device>, scene: &Scene, ways: &[Way]) -> Result<()> {
     for way in ways {
         let mut scene = scene.clone();
         scene.settings.method.name = way.method.name();
-        let plan = plan_for(&scene, Choice { form: way.form, ..Choice::default() })?;
+        let plan = plan_for(
+            &scene,
+            Choice { form: way.form, most_texels: Some(device.info.max_texel_buffer), ..Choice::default() },
+        )?;
         resident.prepare(&scene, &plan)?;
         let mut frame = GpuFrame::new(device, &scene, &plan, &mut resident, way.early_end)?;
         let fragments = frame.run(Measure::Counts { statistics: false })?.fragments.unwrap_or_default();

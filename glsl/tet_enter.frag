@@ -8,7 +8,7 @@
 // LAYER_BEFORE: behind the face of the layer before. AFTER_BEGIN: that is one that rays begin behind, where there is one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [BEGINS], [LAYER_BEFORE], [AFTER_BEGIN]
+//@takes [BEGINS], [LAYER_BEFORE], [AFTER_BEGIN], [STORAGE]
 
 #include "shared/double_float.glsl"
 #include "shared/seen.glsl"
@@ -62,7 +62,7 @@ void main() {
             // Its back is seen: the ray passes beside the mesh.
             found = true;
         } else {
-            uvec4 beside = texelFetch(tet_boundary, int(2u * face + 1u));
+            uvec4 beside = ROW(tet_boundary, 2u * face + 1u);
             face = entrance.lefts.x ? beside.x : entrance.lefts.y ? beside.y : beside.z;
         }
         // Asked at the end as well: shared/segment.glsl.

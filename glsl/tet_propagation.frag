@@ -9,7 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 //
 // ENTERS: the first pass behind a layer, to which rays come from outside of the mesh. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
-//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [SURFACE], [IN_VOLUME], [ENTERS], [FROM_WITHIN]
+//@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [SURFACE], [IN_VOLUME], [ENTERS], [FROM_WITHIN], [STORAGE]
 
 #include "shared/tet_cell.glsl"
 #include "shared/cull.glsl"
@@ -25,11 +25,11 @@ layout(location = 1) out vec2 next_point;
 layout(location = 2) out vec4 gathered;
 
 // Corners of each cell, by rising numbers.
-layout(set = 0, binding = 70) uniform usamplerBuffer tet_cells;
+ROWS(70, TetCells, usamplerBuffer, uvec4, tet_cells);
 
 // A ray that enters a cell by the face opposite to a corner, as traversal data have it.
 Way way_into(Line line, uint cell, uint place, vec2 at) {
-    uvec4 corners = texelFetch(tet_cells, int(cell));
+    uvec4 corners = ROW(tet_cells, cell);
     uvec3 face = place == 0u ? corners.yzw : place == 1u ? corners.xzw : place == 2u ? corners.xyw : corners.xyz;
     Way way;
     way.side = 4u * cell + place + 1u;

@@ -4,7 +4,7 @@
 // GOES_ON: the ray goes on with what RES holds. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [SURFACE], [IN_VOLUME], [FROM_WITHIN]
+//@takes [GOES_ON], [VALUES | TABLE], [ENDLESS], [FEW_PIECES], [SURFACE], [IN_VOLUME], [FROM_WITHIN], [STORAGE]
 
 #include "shared/tet_loop.glsl"
 

@@ -3,7 +3,7 @@
 // VALUES: RES begins with what a ray holds before its first cell. GOES_ON: where that has not been before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-//@takes [VALUES], [GOES_ON]
+//@takes [VALUES], [GOES_ON], [STORAGE]
 
 #include "shared/frame.glsl"
 #include "shared/opacity.glsl"
@@ -12,7 +12,9 @@
 #endif
 
 // As in boundary.glsl.
-layout(set = 0, binding = 64) uniform usamplerBuffer tet_boundary;
+#include "shared/rows.glsl"
+
+ROWS(64, TetBoundary, usamplerBuffer, uvec4, tet_boundary);
 
 layout(set = 0, binding = 66) uniform sampler2D tet_entry;
 
@@ -28,7 +30,7 @@ layout(location = 2) out vec4 gathered;
 
 void main() {
     vec4 entered = texelFetch(tet_entry, ivec2(gl_FragCoord.xy), 0);
-    uint side = entered.y > 0.0 ? texelFetch(tet_boundary, int(2u * (uint(entered.y) - 1u))).x : 0u;
+    uint side = entered.y > 0.0 ? ROW(tet_boundary, 2u * (uint(entered.y) - 1u)).x : 0u;
     cell = side > 0u ? vec2(float((side - 1u) >> 2) + 1.0, float((side - 1u) & 3u)) : vec2(0.0);
     point = entered.zw;
 #ifdef VALUES

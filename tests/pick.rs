@@ -23,6 +23,7 @@ fn device(index: usize, name: &str, kind: DeviceKind, unusable: Option<&str>) ->
         max_viewport: [1; 2],
         sub_pixel_bits: 8,
         max_storage_buffer: 1,
+        max_texel_buffer: 1,
         max_vertex_number: 1,
         memory_bytes: 1,
         unusable: unusable.map(str::to_owned),

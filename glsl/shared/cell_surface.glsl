@@ -3,14 +3,14 @@
 // phong.glsl and projection.glsl; with IN_VOLUME cell_integral.glsl or cell_table.glsl.
 
 // Vertices in volume space, and their x.
-layout(set = 0, binding = 62) uniform samplerBuffer tet_points;
+ROWS(62, TetPoints, samplerBuffer, vec4, tet_points);
 
 // A vector along the gradient of x in a cell of those corners, or against it: lights do not tell the two apart.
 vec3 cell_gradient(uvec4 corners) {
-    vec4 first = texelFetch(tet_points, int(corners.x));
-    vec4 a = texelFetch(tet_points, int(corners.y)) - first;
-    vec4 b = texelFetch(tet_points, int(corners.z)) - first;
-    vec4 c = texelFetch(tet_points, int(corners.w)) - first;
+    vec4 first = ROW(tet_points, corners.x);
+    vec4 a = ROW(tet_points, corners.y) - first;
+    vec4 b = ROW(tet_points, corners.z) - first;
+    vec4 c = ROW(tet_points, corners.w) - first;
     return cross(b.xyz, c.xyz) * a.w + cross(c.xyz, a.xyz) * b.w + cross(a.xyz, b.xyz) * c.w;
 }
 

@@ -3,7 +3,7 @@
 // Across the face opposite to each corner of a cell, corners by rising numbers: one more than the side there, as its cell times 4 and the
 // place of the corner opposite to it, and the number of that corner. 0 on the boundary: some drivers run loops for invocations that nobody
 // sees, which read 0 everywhere, and have to end.
-layout(set = 0, binding = 63) uniform usamplerBuffer tet_across;
+ROWS(63, TetAcross, usamplerBuffer, uvec2, tet_across);
 
 // Goes through the cell to the next one. The last cell of a chain has nothing next.
 Way leave(Line line, Way way) {
@@ -35,7 +35,7 @@ Way leave(Line line, Way way) {
         dropped = way.b.number;
     }
     uint place = uint(dropped > next.a.number) + uint(dropped > next.b.number) + uint(dropped > next.c.number);
-    uvec2 across = texelFetch(tet_across, int(4u * cell + place)).xy;
+    uvec2 across = ROW(tet_across, 4u * cell + place).xy;
     next.side = across.x;
     next.apex = across.y;
     next.at = face_point(next);

@@ -5,8 +5,10 @@
 // perspective it is what is left of columns and rows, and with it these are times the depth. 2. Depths count from the middle of the mesh,
 // so that places have the digits of f32 where vertices are.
 
+#include "shared/rows.glsl"
+
 // Vertices as the view has them: columns and rows from the middle of the picture, times the depth with perspective; the depth; x.
-layout(set = 0, binding = 60) uniform samplerBuffer tet_places;
+ROWS(60, TetPlaces, samplerBuffer, vec4, tet_places);
 
 layout(set = 0, binding = 61, std140) uniform TetView {
     // Of the table of ways: the first value, nodes in a unit of x, and nodes in a reference length.
@@ -56,7 +58,7 @@ Line line_through(vec2 pixel) {
 }
 
 Seen seen(Line line, uint number) {
-    vec4 vertex = texelFetch(tet_places, int(number));
+    vec4 vertex = ROW(tet_places, number);
     precise vec2 arm = (vertex.xy - line.origin) - line.rest;
     precise vec2 along = line.shear * vertex.z;
     precise vec2 place = arm - along;

@@ -30,7 +30,7 @@ vec4 through_cells(CellRay ray, vec4 entered, vec4 held) {
     way.side = entered.y > 0.0 && !any(entrance.lefts) ? way.side : NOTHING;
     bool enters = true;
     // No ray goes through more cells than there are.
-    for (int left_over = textureSize(tet_across); left_over > 0 && way.side != NOTHING && !IS_ENDED(held);) {
+    for (int left_over = COUNT_OF_ROWS(tet_across); left_over > 0 && way.side != NOTHING && !IS_ENDED(held);) {
         Way next = leave(ray.line, way);
         held = joined(held, cell_light(ray, way, next, enters));
         way = next;

@@ -26,7 +26,7 @@ pub fn plan_on(device: &Device, scene: &Scene, form: Option<Form>, lookup: Optio
     let shells = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells);
     shells.map_or(Ok(()), |shells| shells.count(&scene.field))?;
     let on_host = builds_on_host(device, scene, looked_up) || shells.is_some() && builds_shells_on_host(device, scene);
-    plan::plan_for(scene, Choice { form, on_host, lookup })
+    plan::plan_for(scene, Choice { form, on_host, lookup, most_texels: Some(device.info.max_texel_buffer) })
 }
 
 /// Whether the host builds distances, gradients and shells: where it is asked to, where the device has no room to, and on a device that is a

@@ -78,7 +78,7 @@ pub fn filled(device: &Arc<Device>, resource: Resource, facts: &Facts, bytes: &[
             upload::image(device, &image, bytes)?;
             Ok(DeviceObject::Image(image))
         }
-        ResourceKind::Texels(format, _) => {
+        ResourceKind::Texels(format, _) if !facts.view.cells.as_ref().is_some_and(|cells| cells.in_storage) => {
             let (size, usage) = (bytes.len() as u64, vk::BufferUsageFlags::empty());
             let info = BufferInfo { name: resource.numbered(), size, usage, place: Place::Upload };
             let texels = TexelBuffer::new(device, info, *format)?;

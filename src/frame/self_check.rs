@@ -184,7 +184,7 @@ struct FormRun {
 
 /// A frame in that form; the host builds what it looks up, since builds are not what is checked.
 fn run_form(resident: &mut Resident, device: &Arc<Device>, scene: &Scene, form: Form) -> Result<FormRun> {
-    let plan = plan::plan_for(scene, Choice { form: Some(form), on_host: true, lookup: None })?;
+    let plan = plan::plan_for(scene, Choice { form: Some(form), on_host: true, ..Choice::default() })?;
     resident.prepare(scene, &plan)?;
     let mut frame = GpuFrame::new(device, scene, &plan, resident, None)?;
     let run = frame.run(Measure::Counts { statistics: false })?;

@@ -48,7 +48,7 @@ pub const TET_PROPAGATION: Method = Method {
 fn layers(context: &Context, steps: &mut Steps, through: fn(&Context, u32, &mut Steps)) {
     let Some(cells) = context.view.cells.as_ref().filter(|_| context.passes > 0) else { return };
     let begins = u32::from(tetrahedra::begins(context));
-    steps.extend((begins > 0).then(tetrahedra::begin));
+    steps.extend((begins > 0).then(|| tetrahedra::begin(context)));
     for layer in begins..cells.layers() {
         steps.push(tetrahedra::enter(context, layer));
     }

@@ -61,8 +61,7 @@ pub enum ResourceKind {
     Polygons(Bytes),
     Uniform(Bytes),
     Storage(Bytes),
-    /// Texels of a format in a row, which shaders read by their numbers: drivers of CPUs gather these for several invocations at once, where
-    /// they read storage buffers invocation by invocation.
+    /// Texels of a format in a row, which shaders read by their numbers; a storage buffer where the view of a mesh says so.
     Texels(vk::Format, Bytes),
     /// Copies go through it.
     Staging(Bytes),

@@ -29,13 +29,19 @@ pub fn begins(context: &Context) -> bool {
     context.view.cells.as_ref().is_some_and(|cells| cells.begins.is_some())
 }
 
+/// How mesh data are read (`glsl/shared/rows.glsl`).
+fn rows(context: &Context) -> Option<&'static str> {
+    context.view.cells.as_ref().filter(|cells| cells.in_storage).map(|_| "STORAGE")
+}
+
 /// The faces behind which rays begin within the mesh.
-pub fn begin() -> Step {
+pub fn begin(context: &Context) -> Step {
     let mut draw = Draw::plain(&SCREEN, "tet_enter.frag", twin::tetrahedra::enter);
     let mut accesses = vec![Usage::Vertices.of(resource::SCREEN_CORNERS), Usage::Sampled.of(resource::TET_BEGIN)];
     accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
     accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
     draw.define(["BEGINS"]);
+    draw.define(rows(context));
     accesses.push(Usage::Color.of(resource::TET_ENTRY));
     Step::drawn("tet_begin".to_owned(), Group::Setup, 0, accesses, draw)
 }
@@ -46,6 +52,7 @@ pub fn enter(context: &Context, layer: u32) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::TET_CORNERS), Usage::Sampled.of(resource::PLACEMENT)];
     accesses.extend(VERTICES.map(|resource| Usage::Sampled.of(resource)));
     accesses.push(Usage::Sampled.of(resource::TET_BOUNDARY));
+    draw.define(rows(context));
     if let Some(before) = layer.checked_sub(1) {
         accesses.push(Usage::Sampled.of(resource::TET_ENTRY.at(before as u16)));
         draw.define(["LAYER_BEFORE"]);
@@ -93,6 +100,7 @@ fn through_cells(context: &Context, layer: u32) -> (Vec<Resource>, Vec<&'static 
     defines.extend(EARLY_ENDS.define(context));
     defines.extend((layer > 0).then_some("GOES_ON"));
     defines.extend((layer == 0 && begins(context)).then_some("FROM_WITHIN"));
+    defines.extend(rows(context));
     let mut constants = cells::constants(context);
     constants.push(constants::projection(context));
     (reads, defines, constants)
@@ -109,6 +117,7 @@ pub fn start(context: &Context, layer: u32) -> Step {
         Usage::Color.of(resource::TET_CELL),
         Usage::Color.of(resource::TET_POINT),
     ];
+    draw.define(rows(context));
     if context.projection().shows_values() {
         accesses.push(if layer > 0 { Usage::ColorInput } else { Usage::Color }.of(resource::ACCUMULATED));
         draw.define(["VALUES"]);
@@ -154,6 +163,7 @@ pub fn propagate(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> S
     draw.define(cells::defines(context));
     draw.define((pass == 0 && context.has(&ISO_SURFACE)).then_some("ENTERS"));
     draw.define(begins(context).then_some("FROM_WITHIN"));
+    draw.define(rows(context));
     draw.specialize(cells::constants(context));
     draw.specialize([constants::projection(context)]);
     draw.blend = context.projection().blend;

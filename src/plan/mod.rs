@@ -62,6 +62,8 @@ pub struct Choice {
     pub on_host: bool,
     /// The distances looked up, where they are not those of the method.
     pub lookup: Option<Lookup>,
+    /// The most texels that a buffer has, where the device is known.
+    pub most_texels: Option<u32>,
 }
 
 impl Plan {
@@ -177,7 +179,7 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
             let slices = if method.back_to_front() { None } else { Some(scene.settings.sampling.samples_per_pass) };
             view.sliced(scene, stack, slices)?
         }
-        None if method.goes_through_cells() => view.through_cells(scene),
+        None if method.goes_through_cells() => view.through_cells(scene, choice.most_texels),
         None if feature::tiles::only_live(scene, method) => {
             view.in_tiles(content::boxes(scene).into_iter(), feature::tiles::pixels_of_a_draw(method))
         }

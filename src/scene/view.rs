@@ -86,9 +86,9 @@ impl View {
         Ok(Self { slices, slice_polygons: Arc::default(), ..self })
     }
 
-    /// The same of rays that go through the cells of the scene's mesh.
-    pub fn through_cells(self, scene: &Scene) -> Self {
-        let of = |mesh: &Arc<Tetrahedra>| Arc::new(CellsView::new(mesh, &self.rays, self.region));
+    /// The same of rays that go through the cells of the scene's mesh; `most_texels`: see [`CellsView::new`].
+    pub fn through_cells(self, scene: &Scene, most_texels: Option<u32>) -> Self {
+        let of = |mesh: &Arc<Tetrahedra>| Arc::new(CellsView::new(mesh, &self.rays, self.region, most_texels));
         Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
     }
 

@@ -66,6 +66,8 @@ pub struct DeviceInfo {
     pub sub_pixel_bits: u32,
     /// Bytes.
     pub max_storage_buffer: u64,
+    /// Texels of a buffer.
+    pub max_texel_buffer: u32,
     /// The greatest number of a vertex that triangles share.
     pub max_vertex_number: u32,
     /// Bytes of the device's own memory.
@@ -161,6 +163,7 @@ fn describe(raw: &ash::Instance, index: usize, physical: vk::PhysicalDevice) -> 
         max_viewport: limits.max_viewport_dimensions,
         sub_pixel_bits: limits.sub_pixel_precision_bits,
         max_storage_buffer: limits.max_storage_buffer_range.into(),
+        max_texel_buffer: limits.max_texel_buffer_elements,
         max_vertex_number: limits.max_draw_indexed_index_value,
         memory_bytes: memory
             .memory_heaps_as_slice()

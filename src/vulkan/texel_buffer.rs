@@ -29,7 +29,7 @@ impl TexelBuffer {
         let whole = texel_bytes(format).filter(|bytes| info.size.is_multiple_of(*bytes));
         let texels = whole.map(|bytes| info.size / bytes);
         let texels = texels.ok_or_else(|| misuse(&name, format!("{} bytes are no texels of {format:?}", info.size)))?;
-        let limit = device.limits.max_texel_buffer_elements;
+        let limit = device.info.max_texel_buffer;
         if texels > limit.into() {
             let problem = format!("{texels} texels, {} allows {limit} in a buffer", device.info.name);
             return Err(Error::device(&name, problem, "use smaller data, or a device with a higher limit"));

@@ -10,7 +10,7 @@ use depthleap::glsl::{self, Shader};
 use depthleap::method::METHODS;
 use depthleap::part::form::Form;
 use depthleap::part::rows::{Method, Traversal};
-use depthleap::plan::{Plan, plan};
+use depthleap::plan::{Choice, Plan, plan, plan_for};
 use depthleap::probe::{Case, pipelines};
 use depthleap::projection::{COMPOSITE, MIP, Projection, XRAY};
 use depthleap::read;
@@ -134,6 +134,15 @@ fn made() -> Vec<(String, Plan)> {
                 every_form(method, &matrix::by(&scene, method), &format!("{name} {view}"));
             }
         }
+    }
+    // As for a device whose buffers of texels hold no mesh.
+    for method in METHODS.into_iter().filter(|method| method.goes_through_cells()) {
+        let mut settings = Settings::default();
+        settings.volume.builtin = Some("tets-ball:1".to_owned());
+        (settings.image.size, settings.method.name) = ([8, 8], method.name());
+        let choice = Choice { form: method.papers, most_texels: Some(0), ..Choice::default() };
+        let plan = plan_for(&read::scene(&settings).unwrap(), choice).unwrap();
+        plans.push((format!("{} in storage buffers", method.name), plan));
     }
     plans
 }

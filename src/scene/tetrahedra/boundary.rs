@@ -41,17 +41,20 @@ pub struct CellsView {
     pub begins: Option<Vec<u32>>,
     /// Depth of the middle of the mesh.
     pub middle: f64,
+    /// Whether mesh data are in storage buffers, since buffers of texels have too few for them.
+    pub in_storage: bool,
 }
 
 impl CellsView {
-    /// As seen by these rays through the pixels of a region.
-    pub fn new(mesh: &Tetrahedra, rays: &ViewRays, region: Region) -> Self {
+    /// As seen by these rays through the pixels of a region; `most_texels`: the most that a buffer has, where that is known.
+    pub fn new(mesh: &Tetrahedra, rays: &ViewRays, region: Region, most_texels: Option<u32>) -> Self {
         let half = 0.5 * mesh.extent;
         let depth = rays.to_picture().row(2);
         let nearest = depth.dot(DVec3::select(depth.cmpgt(DVec3::ZERO), -half, half) - rays.origin);
         let begins = (nearest <= rays.near).then(|| begins(mesh, rays, region));
         let begins = begins.filter(|faces| faces.iter().any(|face| *face > 0));
-        Self { entries: entries(mesh, rays, region), begins, middle: -depth.dot(rays.origin) }
+        let in_storage = most_texels.is_some_and(|most| mesh.rows() > most as usize);
+        Self { entries: entries(mesh, rays, region), begins, middle: -depth.dot(rays.origin), in_storage }
     }
 
     /// Layers of faces by which rays enter, that behind which they begin among them.

@@ -94,6 +94,11 @@ impl Tetrahedra {
         DVec3::from_array(self.points[number as usize].map(f64::from))
     }
 
+    /// Rows of the longest list of mesh data: vertices, two for a face of the boundary, or four for the sides of a cell.
+    pub fn rows(&self) -> usize {
+        self.points.len().max(2 * self.boundary.len()).max(4 * self.cells.len())
+    }
+
     /// The number of a face of the boundary among them all.
     pub fn face_number(&self, side: u32) -> u32 {
         self.boundary.binary_search(&side).unwrap_or_default() as u32

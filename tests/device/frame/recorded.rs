@@ -63,7 +63,7 @@ fn every_method(_: &Arc<Device>) {
     for method in METHODS.into_iter().filter(|method| method.on_device && method.takes_samples()) {
         for (on_host, cell) in [(false, 1), (false, 4), (true, 1)] {
             let scene = by(&scene("shells:24", "ramp", |s| s.method.cell = cell), method.name());
-            let choice = Choice { form: last_form(device, &scene), on_host, lookup: None };
+            let choice = Choice { form: last_form(device, &scene), on_host, ..Choice::default() };
             let plan = plan_for(&scene, choice).expect("a plan");
             let makers = |maker: Maker| plan.builds.iter().filter(|build| build.maker == maker).count();
             assert_eq!(makers(Maker::Host), usize::from(on_host && method.distance().is_some()), "{}", method.name);

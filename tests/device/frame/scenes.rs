@@ -191,6 +191,8 @@ pub struct Stage {
     structures: Structures,
     resident: Resident,
     pub early_end: Option<EarlyEnd>,
+    /// The most texels of a buffer that plans count on.
+    pub most_texels: u32,
 }
 
 /// A picture and what was counted.
@@ -204,7 +206,8 @@ pub struct Shot {
 impl Stage {
     pub fn new(device: &Arc<Device>) -> Self {
         let (structures, resident) = (Structures::default(), harness::lent(device));
-        Self { device: device.clone(), structures, resident, early_end: None }
+        let most_texels = device.info.max_texel_buffer;
+        Self { device: device.clone(), structures, resident, early_end: None, most_texels }
     }
 
     /// Makes room for another volume or transfer function; what was compiled stays.
@@ -216,7 +219,8 @@ impl Stage {
     /// One frame with counts.
     pub fn shoot(&mut self, scene: &Scene, form: Option<Form>) -> Shot {
         // The host builds, which is the faster on most devices under test.
-        let plan = plan::plan_for(scene, Choice { form, on_host: true, lookup: None }).expect("a plan");
+        let choice = Choice { form, on_host: true, most_texels: Some(self.most_texels), ..Choice::default() };
+        let plan = plan::plan_for(scene, choice).expect("a plan");
         self.resident.prepare(scene, &plan).expect("room on the device");
         let mut frame = GpuFrame::new(&self.device, scene, &plan, &mut self.resident, self.early_end)
             .expect("a frame for the device");

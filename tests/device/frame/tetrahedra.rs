@@ -11,8 +11,8 @@ use depthleap::scene::settings::{Classification, LightSettings, Settings, Surfac
 use depthleap::truth::exact::ExactIntegrator;
 use depthleap::vulkan::Device;
 
-use super::compare::{SAME_SUM, difference, held, held_in_batches};
-use super::scenes::{Stage, by, forms_in_turn};
+use super::compare::{SAME_SUM, difference, held, held_in_batches, same_picture};
+use super::scenes::{Shot, Stage, by, forms_in_turn};
 use crate::harness::{Need, Test, data, test};
 
 type Change = fn(&mut Settings);
@@ -108,7 +108,33 @@ pub fn tests() -> Vec<Test> {
             all_methods(device, &scene);
         }
     }));
+    tests.push(test("tetrahedra::mesh_data_in_storage_buffers", in_storage));
     tests
+}
+
+/// Where buffers of texels have no room for a mesh it is in storage buffers, and the picture is the same to the bit.
+fn in_storage(device: &Arc<Device>) {
+    let mut stage = Stage::new(device);
+    for (name, of_mesh) in [MESHES[1], MESHES[7]] {
+        let scene = shown(|s| {
+            s.volume.builtin = Some(name.to_owned());
+            of_mesh(s);
+        });
+        for method in [&TET_SINGLE_PASS, &TET_SINGLE_PASS_COMPUTE, &TET_PROPAGATION] {
+            let scene = by(&scene, method.name());
+            let shots = [device.info.max_texel_buffer, 0].map(|most| {
+                stage.clear();
+                stage.most_texels = most;
+                stage.shoot(&scene, method.papers)
+            });
+            let stored = |shot: &Shot| shot.plan.view.cells.as_ref().is_some_and(|cells| cells.in_storage);
+            assert_eq!(shots.each_ref().map(stored), [false, true], "{name}, {}", method.name);
+            assert!(shots[0].picture.iter().any(|pixel| pixel[3] > 0.1), "{name}, {}: nothing is seen", method.name);
+            let same = same_picture(&shots[1].picture, &shots[0].picture);
+            same.unwrap_or_else(|what| panic!("{name}, {}: {what}", method.name));
+            assert_eq!(shots[1].run.fragments, shots[0].run.fragments, "{name}, {}", method.name);
+        }
+    }
 }
 
 fn shown(change: impl FnOnce(&mut Settings)) -> Scene {
