@@ -10,6 +10,8 @@
 //
 // ENTERS: the first pass behind a layer, to which rays come from outside of the mesh. SURFACE: iso-surfaces show; IN_VOLUME: within colours.
 //@takes [CULL_DISCARD], [VALUES | TABLE], [FEW_PIECES], [SURFACE], [IN_VOLUME], [ENTERS], [FROM_WITHIN], [STORAGE]
+// llvmpipe runs it faster as it is: 85 ms where optimised it takes 92 (Mesa 26.1, the cube of 24,576 cells).
+//@unoptimised
 
 #include "shared/tet_cell.glsl"
 #include "shared/cull.glsl"

@@ -99,6 +99,7 @@ fn lines_that_say_what_a_shader_takes_are_checked() {
     for (line, says) in [
         ("//@take A", "is not a known line"),
         ("//@variant plain", "is not a known line"),
+        ("//@unoptimised for now", "is not a known line"),
         ("//@takes A,, B", "`` is not a define"),
         ("//@takes A-B", "`A-B` is not a define"),
         ("//@takes A=", "`A=` is not a define"),

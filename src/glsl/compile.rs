@@ -14,12 +14,19 @@ pub struct CompiledModule {
     pub warnings: String,
 }
 
-/// Compiles a shader with these defines for Vulkan 1.3, as SPIR-V 1.5, optimised.
+/// A line of shaders that are left to the optimisers of drivers; the reason stands beside it.
+pub const UNOPTIMISED: &str = "//@unoptimised";
+
+/// Compiles a shader with these defines for Vulkan 1.3, as SPIR-V 1.5, optimised where its file does not say otherwise.
 ///
 /// # Errors
 /// What the compiler says, each fault with its file and line.
 pub fn compile(text: &Text, defines: &[&str]) -> Result<CompiledModule, Broken> {
-    compile_to(text, defines, OptimizationLevel::Performance)
+    let level = match text.own().lines().any(|line| line == UNOPTIMISED) {
+        true => OptimizationLevel::Zero,
+        false => OptimizationLevel::Performance,
+    };
+    compile_to(text, defines, level)
 }
 
 /// Compiles a shader as [`compile`] does, but for the optimiser, which takes most of the time: what a module declares is known

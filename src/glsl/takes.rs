@@ -6,8 +6,9 @@
 //!
 //! Choices are parted by commas. Of a choice exactly one define is given; in brackets, one or none. A define may have a
 //! value, which belongs to its name: `DEPTH=depth_any`. Several such lines count as one; a shader without any takes
-//! no define.
+//! no define. The only other line of this kind is [`UNOPTIMISED`].
 
+use super::compile::UNOPTIMISED;
 use super::source::{Broken, Text};
 
 /// One choice: defines that exclude each other.
@@ -59,11 +60,13 @@ impl Takes {
     /// A `//@` line that cannot be read, or a define that is there twice, with its place.
     pub fn of(text: &Text) -> Result<Self, Broken> {
         let mut takes = Self { choices: Vec::new(), line: 1 };
-        for (index, line) in text.own().lines().enumerate() {
+        for (index, line) in text.own().lines().enumerate().filter(|(_, line)| *line != UNOPTIMISED) {
             let Some(rest) = line.trim_start().strip_prefix("//@") else { continue };
             let fault = |problem: &str| text.fault(index + 1, problem);
             let Some(list) = rest.strip_prefix("takes ") else {
-                return Err(fault(&format!("`//@{rest}` is not a known line; write `//@takes A | B, [C], [D=VALUE]`")));
+                return Err(fault(&format!(
+                    "`//@{rest}` is not a known line; write `//@takes A | B, [C], [D=VALUE]` or `{UNOPTIMISED}`"
+                )));
             };
             if takes.choices.is_empty() {
                 takes.line = index + 1;
