@@ -85,6 +85,7 @@ impl Pipelines {
                 constants: &constants,
                 render_pass: &render_pass,
                 vertex_format: Some(key.geometry.corner),
+                front_only: key.geometry.front_only,
                 depth: DepthState {
                     test: key.test.compare.is_some(),
                     write: key.test.write,

@@ -18,6 +18,7 @@ pub static BOUNDARY: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: false,
+    front_only: true,
     hits,
 };
 

@@ -43,6 +43,7 @@ const POLYGONS: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: false,
+    front_only: false,
     hits: |_, _, _| Hits { fragments: 0, undecided: false },
 };
 

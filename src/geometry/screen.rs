@@ -15,5 +15,6 @@ pub static SCREEN: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: false,
+    front_only: false,
     hits: |_, view, sample| Hits { fragments: view.region.contains(sample.pixel).into(), undecided: false },
 };

@@ -19,6 +19,7 @@ pub static SHELLS: Geometry = Geometry {
     numbers: |scene, pass| Some(size_of::<[f32; 3]>() as u64 * u64::from(count(scene, pass)[0])),
     parts: |_| None,
     within_box: false,
+    front_only: false,
     hits,
 };
 

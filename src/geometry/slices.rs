@@ -18,6 +18,7 @@ pub static SLICES_CUT: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: false,
+    front_only: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };
 
@@ -35,5 +36,6 @@ pub static SLICES: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: false,
+    front_only: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
 };

@@ -31,6 +31,7 @@ const BOX: Geometry = Geometry {
     numbers: |_, _| None,
     parts: |_| None,
     within_box: true,
+    front_only: false,
     hits,
 };
 

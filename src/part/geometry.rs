@@ -28,6 +28,8 @@ pub struct Geometry {
     pub parts: fn(&View) -> Option<&[Region]>,
     /// Whether it covers no pixels but those of the volume's box, each once, and its fragments read targets at their own pixel only.
     pub within_box: bool,
+    /// Whether those of its triangles alone are drawn whose corners go round to the left in the picture.
+    pub front_only: bool,
     /// The fragments of a pixel, in f64.
     pub hits: fn(&Scene, &View, Sample) -> Hits,
 }

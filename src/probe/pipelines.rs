@@ -71,6 +71,7 @@ impl CasePipelines {
             constants: &[],
             render_pass,
             vertex_format: None,
+            front_only: false,
             depth,
             stencil,
             blend: Blend::Replace,

@@ -31,7 +31,7 @@ impl DepthState {
     pub const OFF: Self = Self { test: false, write: false, compare: vk::CompareOp::ALWAYS, bounds: false };
 }
 
-/// What a graphics pipeline is made from. Triangle lists, both faces; viewport, scissor and depth bounds are
+/// What a graphics pipeline is made from. Triangle lists; viewport, scissor and depth bounds are
 /// set while recording.
 pub struct GraphicsPipelineInfo<'a> {
     pub name: &'a str,
@@ -43,6 +43,8 @@ pub struct GraphicsPipelineInfo<'a> {
     pub render_pass: &'a RenderPass,
     /// One attribute at location 0, tightly packed; `None`: no vertex buffer.
     pub vertex_format: Option<vk::Format>,
+    /// Whether triangles are drawn only where their corners go round to the left; else both faces are.
+    pub front_only: bool,
     pub depth: DepthState,
     /// Fragments pass where the stencil attachment holds this value, which stays; `None`: no stencil test.
     pub stencil: Option<u8>,
@@ -88,7 +90,8 @@ impl GraphicsPipeline {
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let raster = vk::PipelineRasterizationStateCreateInfo::default()
             .polygon_mode(vk::PolygonMode::FILL)
-            .cull_mode(vk::CullModeFlags::NONE)
+            .cull_mode(if info.front_only { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
         let samples =
             vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);

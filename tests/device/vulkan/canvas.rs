@@ -155,6 +155,7 @@ impl Canvas {
                 constants: &[],
                 render_pass: &self.pass,
                 vertex_format: Some(vk::Format::R32G32B32_SFLOAT),
+                front_only: false,
                 depth,
                 stencil: None,
                 blend,
