@@ -11,6 +11,9 @@
 // Red, green and blue are the same everywhere.
 layout(constant_id = 40) const bool ONE_COLOR = false;
 
+// No opacity is above one half, and no optical depth of a way.
+layout(constant_id = 73) const bool SHALLOW = false;
+
 // An optical depth that lets nothing pass, and one behind which nobody sees a change of colour.
 const float OPAQUE_DEPTH = 1.0e30;
 const float BLIND_DEPTH = 1.0e6;
@@ -55,7 +58,7 @@ float even_rise(float depth, float change) {
 float mean_extinction(float mean, float clear, float ratio) {
     float square = ratio * ratio;
     float series = square * ((1.0 / 6.0 + square * (1.0 / 20.0)) + square * square * (1.0 / 42.0 + square * (1.0 / 72.0)));
-    return series - logarithm(max(clear, 1.0e-37), -mean);
+    return series - (SHALLOW ? log_1_plus(-mean) : logarithm(max(clear, 1.0e-37), -mean));
 }
 
 // The piece in which a way goes on from a value: at a jump the later piece begins there, or ends. `above` is where the next one begins.
@@ -93,6 +96,9 @@ Piece piece_ahead(float value, bool falls, out float above) {
 
 // 1 - exp(-depth): the depth is so many times ln(2), in two parts, and a rest within half of that to each side.
 float opacity_of(float depth) {
+    if (SHALLOW) {
+        return -exp_minus_1(-depth);
+    }
     float seen = min(depth, 80.0);
     float halvings = floor(1.44269504 * seen + 0.5);
     float rest = (halvings * 0.693359375 - seen) - halvings * 2.12194440e-4;

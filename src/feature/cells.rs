@@ -22,7 +22,7 @@ pub fn constants(context: &Context) -> Vec<Constant> {
     let mut constants = Vec::new();
     if context.has(&CLASSIFICATION) && !context.scene.has_cell_table() {
         constants.extend(OF_CELLS.into_iter().flat_map(|feature| (feature.constants)(context)));
-        constants.push(one_color(context));
+        constants.extend([one_color(context), shallow(context)]);
     }
     constants.extend(context.has(&ISO_SURFACE).then(|| lights::white_lights(context)));
     constants
@@ -33,6 +33,21 @@ pub fn one_color(context: &Context) -> Constant {
     let knots = context.scene.transfer.knots();
     let one_color = context.plans() && knots.iter().all(|knot| knot.color == knots[0].color);
     ("ONE_COLOR", u32::from(one_color))
+}
+
+/// Optical depths up to this are shallow, somewhat less than one half, which shaders need: lengths of ways are rounded.
+const SHALLOW: f64 = 0.49;
+
+/// Of `cell_integral.glsl`: whether no opacity is above one half, and no optical depth of a way through a cell.
+fn shallow(context: &Context) -> Constant {
+    let scene = context.scene;
+    let most = scene.transfer.knots().iter().fold(0.0, |most: f64, knot| most.max(knot.opacity));
+    let longest = scene
+        .tetrahedra
+        .as_ref()
+        .map_or(f64::INFINITY, |mesh| mesh.longest_edge / (scene.transfer.reference * scene.field.finest()));
+    let depth = -(-most).ln_1p() * longest;
+    ("SHALLOW", u32::from(context.plans() && most <= 0.5 && depth <= SHALLOW))
 }
 
 /// What ways through cells read.
