@@ -5,12 +5,18 @@ mod drawn;
 #[path = "random/mod.rs"]
 mod random;
 
+use std::sync::Arc;
+
 use depthleap::feature::tiles;
+use depthleap::frame::CpuFrame;
 use depthleap::method::{self, METHODS, NN_OMNI, NN_OPTIMAL_FUSED, RC_BLOCK, SINGLE_PASS_BLOCK, SINGLE_PASS_OMNI};
+use depthleap::part::Group;
 use depthleap::part::rows::Method;
 use depthleap::plan::{check, plan};
 use depthleap::read;
+use depthleap::scene::along_rays::AlongRays;
 use depthleap::scene::settings::{ClipSettings, MeshSettings, Settings, Tiles};
+use depthleap::scene::tiles::{InPasses, Tiles as ViewTiles};
 use depthleap::scene::view::View;
 use depthleap::scene::{Region, Scene};
 use depthleap::structure::content;
@@ -42,8 +48,16 @@ fn pixels() -> impl Iterator<Item = [u32; 2]> {
 }
 
 fn in_tiles(scene: &Scene) -> View {
-    let draw = tiles::pixels_of_a_draw(method::of(scene.settings.method.name).unwrap());
-    View::new(scene).unwrap().in_tiles(content::boxes(scene).into_iter(), draw)
+    plan(&live(scene), method::papers_form(scene.settings.method.name)).unwrap().view
+}
+
+/// Live tiles of a view by itself, in one main pass or in none.
+fn live_tiles(scene: &Scene, draw: Option<u64>) -> Arc<ViewTiles> {
+    let view = View::new(scene).unwrap();
+    let of_draw =
+        |draw| InPasses { along: AlongRays::new(scene, &view.rays), step: 1.0, samples: 1 << 20, passes: 1, draw };
+    let passes = draw.map(of_draw);
+    view.in_tiles(content::boxes(scene, true).into_iter(), passes.as_ref()).tiles.expect("tiles were asked for")
 }
 
 const DRAWN_BY: [&Method; 5] = [&SINGLE_PASS_OMNI, &NN_OMNI, &SINGLE_PASS_BLOCK, &RC_BLOCK, &NN_OPTIMAL_FUSED];
@@ -59,20 +73,19 @@ fn pictures_are_those_of_all_tiles_from_all_sides() {
             s.camera.eye = eye;
             s.camera.height = (round % 5 == 0).then_some(1.5);
             s.method.name = DRAWN_BY[round % DRAWN_BY.len()].name();
+            s.sampling.samples_per_pass = [8, 1, 3, 16][round / 4 % 4];
+            s.sampling.step = [1.0, 0.4][round / 2 % 2];
             s.clips = if round % 7 == 0 {
                 vec![ClipSettings { plane: Some([0.3, 1.0, 0.2, 0.1]), ..ClipSettings::default() }]
             } else {
                 Vec::new()
             };
         });
-        let ((plan, all), (_, some)) = (drawn(&scene), drawn(&live(&scene)));
+        let ((_, all), (_, some)) = (drawn(&scene), drawn(&live(&scene)));
         assert_eq!(all.pixels, some.pixels, "{volume} from {eye:?}");
-        let view = in_tiles(&scene);
-        let tiles = view.tiles.as_ref().expect("tiles were asked for");
-        let dead = pixels().filter(|pixel| !tiles.contains(*pixel)).count();
-        let [all, some] = [&all, &some].map(|frame| frame.counts.main.iter().sum::<u64>());
-        let most = dead as u64 * u64::from(plan.passes.max(1));
-        assert!(some <= all && all - some <= most, "{volume} from {eye:?}: {some} of {all} fragments");
+        let [all, some] =
+            [&all, &some].map(|CpuFrame { counts, .. }| counts.main.iter().chain(&counts.intermediate).sum::<u64>());
+        assert!(some <= all, "{volume} from {eye:?}: {some} of {all} fragments");
         saved[usize::from(round % 3 == 0)] += usize::from(some < all);
     }
     assert!(saved[0] >= 5 && saved[1] >= 5, "tiles are left out in {saved:?} pictures");
@@ -95,9 +108,8 @@ fn rectangles_cover_each_pixel_of_live_tiles_once() {
 
 /// Rectangles and pixels of live tiles, where a draw takes as long as so many pixels.
 fn drawn_in(scene: &Scene, draw: Option<u64>) -> (usize, u64) {
-    let view = View::new(scene).unwrap().in_tiles(content::boxes(scene).into_iter(), draw);
-    let live = view.tiles.as_ref().expect("tiles were asked for").live();
-    (live.len(), live.iter().map(|part| part.pixels()).sum())
+    let tiles = live_tiles(scene, draw);
+    (tiles.live().len(), tiles.live().iter().map(|part| part.pixels()).sum())
 }
 
 #[test]
@@ -125,8 +137,7 @@ fn fewer_rectangles_are_drawn_the_dearer_a_draw_is() {
 #[test]
 fn tiles_of_bands_hold_all_live_ones() {
     let scene = scene("jets:32", "surface", |_| {});
-    let of = |draw| View::new(&scene).unwrap().in_tiles(content::boxes(&scene).into_iter(), draw).tiles.unwrap();
-    let (exact, bands) = (of(None), of(Some(512)));
+    let (exact, bands) = (live_tiles(&scene, None), live_tiles(&scene, Some(512)));
     assert!(pixels().all(|pixel| bands.contains(pixel) || !exact.contains(pixel)));
     for [column, row] in pixels() {
         let region = View::new(&scene).unwrap().region;
@@ -134,6 +145,49 @@ fn tiles_of_bands_hold_all_live_ones() {
             |part: &&Region| Region { x: part.x + region.x, y: part.y + region.y, ..**part }.contains([column, row]);
         assert_eq!(bands.live().iter().filter(covers).count(), usize::from(bands.contains([column, row])));
     }
+}
+
+#[test]
+fn passes_draw_live_tiles_alone_and_count_those_to_come() {
+    for (volume, samples) in [("jets:40", 4), ("blocks:40", 1), ("shells:24", 16)] {
+        let scene = scene(volume, "surface", |s| {
+            (s.method.name, s.sampling.samples_per_pass) = (NN_OMNI.name(), samples);
+        });
+        let plan = plan(&live(&scene), method::papers_form(NN_OMNI.name())).unwrap();
+        let tiles = plan.view.tiles.as_ref().expect("tiles were asked for");
+        let covering = |parts: &[Region], pixel: [u32; 2]| parts.iter().filter(|part| part.contains(pixel)).count();
+        let mut drawn = 0;
+        for pixel in pixels()
+            .filter(|[column, row]| plan.view.region.contains([column + plan.view.region.x, row + plan.view.region.y]))
+        {
+            let here: Vec<usize> = (0..plan.passes).map(|pass| covering(tiles.live_in(pass), pixel)).collect();
+            let rest: Vec<usize> = (0..plan.passes).map(|pass| covering(tiles.live_from(pass), pixel)).collect();
+            let any_from = |pass: usize| usize::from(here[pass..].contains(&1));
+            assert!(here.iter().all(|count| *count <= covering(tiles.live(), pixel)), "{volume}, {pixel:?}: {here:?}");
+            assert_eq!(rest, (0..rest.len()).map(any_from).collect::<Vec<_>>(), "{volume}, {pixel:?}");
+            drawn += here.iter().sum::<usize>();
+        }
+        let all = plan.view.region.pixels() as usize * plan.passes as usize;
+        assert!(drawn > 0 && 2 * drawn < all, "{volume}: {drawn} of {all} pixels in all passes");
+    }
+}
+
+/// A pass in which nothing may show is none of the frame's.
+#[test]
+fn passes_without_live_tiles_are_left_out() {
+    let scene = live(&scene("gaussian:40", "surface", |s| {
+        (s.method.name, s.camera.eye, s.sampling.samples_per_pass) = (NN_OMNI.name(), [0.0, 0.0, 3.0], 2);
+    }));
+    let mains = |scene: &Scene| {
+        let plan = plan(scene, method::papers_form(NN_OMNI.name())).unwrap();
+        let list = plan.frame().iter().filter(|step| step.group == Group::Main).map(|step| step.pass);
+        (list.collect::<Vec<_>>(), plan.passes)
+    };
+    let (list, passes) = mains(&scene);
+    assert!(!list.is_empty() && list.len() < passes as usize && list[0] > 0, "{list:?} of {passes}");
+    let mut whole = scene;
+    whole.settings.method.planner = false;
+    assert_eq!(mains(&whole).0.len(), mains(&whole).1 as usize, "without the planner nothing is left out");
 }
 
 /// A box beside the picture has no pixels, and no tiles.

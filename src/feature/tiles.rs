@@ -4,7 +4,11 @@ use crate::error::{Error, Result};
 use crate::part::rows::{Method, Traversal};
 use crate::projection;
 use crate::scene::Scene;
+use crate::scene::along_rays::AlongRays;
 use crate::scene::settings::Tiles;
+use crate::scene::tiles::InPasses;
+use crate::scene::view::View;
+use crate::structure::content;
 
 /// Whether a method leaves out whole tiles where it is asked to: ray casters that know what lies ahead, but for compute shaders; others
 /// draw all.
@@ -16,9 +20,16 @@ pub fn are_left_out_by(method: &Method) -> bool {
 /// (`benches/results/lavapipe-22.3/limit.md`).
 const OF_A_DRAW: u64 = 4096;
 
-/// Pixels that are worth a draw less; none where each tile has its rays begun and marched at once, beside which draws take no time.
-pub fn pixels_of_a_draw(method: &Method) -> Option<u64> {
-    (!method.loops()).then_some(OF_A_DRAW)
+/// A view in live tiles alone; in each of so many main passes, where the method has such, in those in which its samples may show something.
+pub fn draw_live(scene: &Scene, method: &Method, view: View, passes: u32) -> View {
+    let in_passes = (!method.loops()).then(|| InPasses {
+        along: AlongRays::new(scene, &view.rays),
+        step: scene.settings.step() * scene.field.finest(),
+        samples: scene.settings.sampling.samples_per_pass,
+        passes,
+        draw: OF_A_DRAW,
+    });
+    view.in_tiles(content::boxes(scene, in_passes.is_some()).into_iter(), in_passes.as_ref())
 }
 
 /// Whether a method draws only tiles behind which something may show.

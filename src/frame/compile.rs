@@ -11,6 +11,7 @@ use super::pipelines::PipelineKey;
 use super::resident::Resident;
 use super::schedule::{Barrier, schedule};
 use crate::error::{Error, Result};
+use crate::geometry;
 use crate::part::access::{Access, Usage};
 use crate::part::resource::{Origin, Resource, ResourceKind};
 use crate::part::{Draw, PixelDispatch, Step, Work};
@@ -19,6 +20,7 @@ use crate::resource;
 use crate::scene::Region;
 use crate::scene::Scene;
 use crate::scene::settings::{Filter, Formats};
+use crate::scene::view::View;
 use crate::vulkan::{
     Bound, Buffer, ComputePipeline, DescriptorSet, Device, Framebuffer, GraphicsPipeline, Image, ImageInfo, ImageShape,
     RenderPass, RenderPassInfo, Sampler,
@@ -39,6 +41,8 @@ pub struct Compiled {
 pub struct CompiledStep {
     pub step: Step,
     pub barriers: Vec<Barrier>,
+    /// Rectangles of the targets that it draws in, or copies.
+    pub parts: Vec<Region>,
     pub draw: Option<CompiledDraw>,
     pub pixels: Option<CompiledPixels>,
     /// Where RES is once the step has run, for whoever reads the picture then.
@@ -57,8 +61,6 @@ pub struct CompiledDraw {
     pub corners: Range<u32>,
     /// Where the list of their numbers begins, bytes.
     pub numbers: Option<u64>,
-    /// Rectangles of the targets that alone are drawn; none where all is.
-    pub parts: Option<Vec<Region>>,
 }
 
 /// What a compute shader over the pixels binds.
@@ -119,6 +121,7 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         };
         compiled.push(CompiledStep {
             accumulated_layout: scheduled.layouts.get(&resource::ACCUMULATED).copied(),
+            parts: parts(&plan.view, &step),
             step,
             barriers: scheduled.barriers,
             draw,
@@ -135,6 +138,16 @@ pub fn compile(device: &Arc<Device>, scene: &Scene, plan: &Plan, resident: &mut 
         marks_buffer,
         region: plan.view.region,
     })
+}
+
+/// The rectangles of the targets that a step draws in, or copies.
+fn parts(view: &View, step: &Step) -> Vec<Region> {
+    let parts = match &step.work {
+        Work::Draw(draw) => (draw.geometry.parts)(view, step.pass),
+        Work::Copy { of, .. } => of.and_then(|pass| geometry::of_pass(view, pass)),
+        _ => None,
+    };
+    parts.map_or_else(|| vec![Region { x: 0, y: 0, ..view.region }], <[Region]>::to_vec)
 }
 
 fn targets(device: &Arc<Device>, plan: &Plan, formats: Formats) -> Result<HashMap<Resource, Image>> {
@@ -238,7 +251,6 @@ impl Compiler<'_> {
             set,
             corners: (draw.geometry.range)(self.scene, &self.plan.view, step.pass),
             numbers: (draw.geometry.numbers)(self.scene, step.pass),
-            parts: (draw.geometry.parts)(&self.plan.view).map(<[Region]>::to_vec),
         })
     }
 

@@ -190,8 +190,9 @@ fn run_row(twin: &Twin, plan: &Plan, row: u32) -> (CpuFrame, Vec<u64>) {
             let of_step = match &step.work {
                 Work::Draw(draw) => {
                     let sample = Sample { pixel: [column, row], raster: twin.raster };
-                    let met = hits.of(draw.geometry, twin.scene, &plan.view, sample);
-                    (met.fragments > 0 && takes_part(draw, &pixel)).then_some(draw.twin)
+                    let drawn = draw.geometry.draws(&plan.view, step.pass, sample.pixel);
+                    let mut meets = || hits.of(draw.geometry, twin.scene, &plan.view, sample).fragments > 0;
+                    (drawn && meets() && takes_part(draw, &pixel)).then_some(draw.twin)
                 }
                 Work::Pixels(pixels) => plan.view.region.contains([column, row]).then_some(Some(pixels.twin)),
                 _ => None,

@@ -22,7 +22,7 @@ use crate::plan::Plan;
 use crate::resource;
 use crate::scene::{Region, Scene};
 use crate::shared;
-use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope, Watch};
+use crate::vulkan::{Commands, CopyRegion, Device, Queue, Scope, Watch, texel_bytes};
 
 /// How the rest of a frame is left out when no ray is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,7 +208,7 @@ impl GpuFrame {
         }
         match &step.work {
             Work::Draw(draw) => self.record_draw(commands, i, draw, measure, ended),
-            Work::Copy { from, to, .. } => self.record_copy(commands, *from, *to),
+            Work::Copy { from, to, .. } => self.record_copy(commands, *from, *to, &compiled.parts),
             Work::Clear(resource) => {
                 commands.clear_color(&self.compiled.targets[resource]);
             }
@@ -257,8 +257,7 @@ impl GpuFrame {
             commands.begin_conditional(buffer, 4 * u64::from(at));
         }
         let (first, count) = (objects.corners.start, objects.corners.len() as u32);
-        let whole = [self.whole()];
-        for part in objects.parts.as_deref().unwrap_or(&whole).iter().filter(|_| !ended) {
+        for part in compiled.parts.iter().filter(|_| !ended) {
             commands.scissor(rectangle(*part));
             match objects.numbers {
                 Some(_) => commands.draw_numbered(first, count),
@@ -293,16 +292,24 @@ impl GpuFrame {
         }
     }
 
-    /// Colour to depth, by way of the buffer.
-    fn record_copy(&self, commands: &mut Commands, from: Resource, to: Resource) {
+    /// Rectangles of colour to depth, by way of the buffer.
+    fn record_copy(&self, commands: &mut Commands, from: Resource, to: Resource, parts: &[Region]) {
         let Some(buffer) = self.compiled.marks_buffer.as_ref().and_then(DeviceObject::buffer) else { return };
         let write = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_WRITE);
         let read = Scope::new(vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
-        let texels = self.texels();
+        let (from, to) = (&self.compiled.targets[&from], &self.compiled.targets[&to]);
+        let width = self.compiled.region.width;
+        let texel = texel_bytes(from.info.format).unwrap_or_default();
+        let texels = |part: &Region| CopyRegion {
+            buffer_offset: texel * (u64::from(part.y) * u64::from(width) + u64::from(part.x)),
+            image_offset: [part.x, part.y, 0],
+            extent: [part.width, part.height, 1],
+            row: width,
+        };
         commands.buffer_barrier(buffer, read, write);
-        commands.copy_image_to_buffer(&self.compiled.targets[&from], buffer, texels);
+        parts.iter().for_each(|part| commands.copy_image_to_buffer(from, buffer, texels(part)));
         commands.buffer_barrier(buffer, write, read);
-        commands.copy_buffer_to_image(buffer, &self.compiled.targets[&to], texels);
+        parts.iter().for_each(|part| commands.copy_buffer_to_image(buffer, to, texels(part)));
     }
 
     /// RES as the last run left it: premultiplied RGBA, row 0 on top, transparent where the box is not.
@@ -332,11 +339,6 @@ impl GpuFrame {
     /// The targets, from their first pixel.
     fn whole(&self) -> Region {
         Region { x: 0, y: 0, ..self.compiled.region }
-    }
-
-    fn texels(&self) -> CopyRegion {
-        let [width, height] = self.compiled.region.size();
-        CopyRegion { buffer_offset: 0, image_offset: [0; 3], extent: [width, height, 1], row: 0 }
     }
 
     /// The whole picture, of which the targets are a part.

@@ -16,7 +16,7 @@ pub static BOUNDARY: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |scene, _, _| 0..scene.tetrahedra.as_ref().map_or(0, |mesh| 3 * mesh.boundary.len() as u32),
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: true,
     hits,

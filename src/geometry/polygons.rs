@@ -41,7 +41,7 @@ const POLYGONS: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: false,
     hits: |_, _, _| Hits { fragments: 0, undecided: false },

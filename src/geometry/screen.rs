@@ -13,7 +13,7 @@ pub static SCREEN: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..3,
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: false,
     hits: |_, view, sample| Hits { fragments: view.region.contains(sample.pixel).into(), undecided: false },

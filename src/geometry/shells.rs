@@ -17,7 +17,7 @@ pub static SHELLS: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |scene, _, pass| 0..3 * count(scene, pass)[1],
     numbers: |scene, pass| Some(size_of::<[f32; 3]>() as u64 * u64::from(count(scene, pass)[0])),
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: false,
     hits,

@@ -16,7 +16,7 @@ pub static SLICES_CUT: Geometry = Geometry {
     corner: vk::Format::R32G32_SFLOAT,
     range: |_, view, pass| view.slices.as_ref().map_or(0..0, |slices| slices.numbers_in(pass)),
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },
@@ -34,7 +34,7 @@ pub static SLICES: Geometry = Geometry {
         view.slices.as_ref().map_or(0..0, in_pass)
     },
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: false,
     front_only: false,
     hits: |_, view, _| Hits { fragments: view.slices.as_ref().map_or(0, |slices| slices.count), undecided: false },

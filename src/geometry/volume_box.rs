@@ -29,7 +29,7 @@ const BOX: Geometry = Geometry {
     corner: vk::Format::R32G32B32_SFLOAT,
     range: |_, _, _| 0..0,
     numbers: |_, _| None,
-    parts: |_| None,
+    parts: |_, _| None,
     within_box: true,
     front_only: false,
     hits,

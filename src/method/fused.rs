@@ -33,9 +33,14 @@ pub const NN_CONE_FUSED: Method = row(Distance::Cone, "nn-cone+fused", "nn-cone,
 fn passes(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     empty(context, steps);
-    steps.push(near_neighbor(context, 0, form));
-    for pass in 0..context.passes {
-        decided(context, steps, pass, context.has(&MARK_COPIES).then_some(resource::MARKS));
+    let mut marked = None;
+    for pass in context.drawn_passes() {
+        if marked.is_none() {
+            steps.push(near_neighbor(context, pass, form));
+        }
+        let beside = context.has(&MARK_COPIES).then_some(resource::MARKS);
+        decided(context, steps, pass, marked, beside);
         steps.push(fused(context, pass, form));
+        marked = Some(pass);
     }
 }

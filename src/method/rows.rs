@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::feature::layers::{LAYER_BEFORE, LAYER_BEHIND, first_section};
 use crate::feature::{APART, BATCH, CLIP_BEGIN, COUNTING, DECISIONS, EARLY_ENDS, ISO_SURFACE, MARK_COPIES, START};
 use crate::feature::{BACKDROP, adaptive, cells, clip_volume, light_paths, refraction, surface};
-use crate::geometry::ray_begins;
+use crate::geometry::rest_begins;
 use crate::part::Step;
 use crate::part::form::Form;
 use crate::part::resource::Resource;
@@ -174,7 +174,7 @@ pub fn main(context: &Context, pass: u32, culled: Option<(Cull, f32)>) -> Step {
 
 /// Main passes that run for every fragment.
 pub fn unswitched(context: &Context, steps: &mut Steps) {
-    steps.extend((0..context.passes).map(|pass| main(context, pass, None)));
+    steps.extend(context.drawn_passes().map(|pass| main(context, pass, None)));
 }
 
 /// Main passes switched by an intermediate pass before each, from main pass `first` on [KW03 §2.1].
@@ -185,24 +185,25 @@ pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Co
     if first == 0 {
         empty(context, steps);
     }
-    for pass in 0..context.passes {
+    let mut decides = None;
+    for pass in context.drawn_passes() {
         let mut culled: Option<(Cull, f32)> = None;
         if pass >= first {
             steps.push(decide(context, pass, form));
-            decided(context, steps, pass, None);
+            decided(context, steps, pass, decides.replace(pass).map(|_| pass), None);
             culled = Some((form.cull, SWITCH));
         }
         steps.push(main(context, pass, culled));
     }
 }
 
-/// What follows a step that has decided about main pass `pass`: the copy, where marks go that way, and now and then the
-/// count of rays left, with a target `beside` it.
-pub fn decided(context: &Context, steps: &mut Steps, pass: u32, beside: Option<Resource>) {
+/// What follows a step that has decided about main pass `pass`: the copy of what was marked in the tiles of main pass `marked`, of all
+/// pixels where nothing was copied before, where marks go that way; and now and then the count of rays left, with a target `beside` it.
+pub fn decided(context: &Context, steps: &mut Steps, pass: u32, marked: Option<u32>, beside: Option<Resource>) {
     if context.has(&MARK_COPIES) {
-        steps.push(mark_copy::mark_copy(pass));
+        steps.push(mark_copy::mark_copy(pass, marked));
     }
     if context.has(&COUNTING) && pass > 0 && pass.is_multiple_of(BATCH) {
-        steps.push(alive::alive(ray_begins(context.view), pass, beside));
+        steps.push(alive::alive(rest_begins(context.view), pass, beside));
     }
 }

@@ -73,7 +73,7 @@ fn propagation(context: &Context, layer: u32, steps: &mut Steps) {
     for pass in 0..context.passes {
         if pass.is_multiple_of(2) {
             steps.push(tetrahedra::update(context, pass, form));
-            steps.extend((form.mark == Mark::Copy).then(|| mark_copy::mark_copy(pass)));
+            steps.extend((form.mark == Mark::Copy).then(|| mark_copy::mark_copy(pass, None)));
         }
         if pass > 0 && pass.is_multiple_of(BATCH) {
             steps.push(alive::alive(&SCREEN, pass, Some(resource::ACCUMULATED)));

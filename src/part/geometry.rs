@@ -24,14 +24,26 @@ pub struct Geometry {
     pub range: fn(&Scene, &View, u32) -> Range<u32>,
     /// Where in the buffer the list of the numbers of corners begins, bytes, in a main pass; none where triangles share no corners.
     pub numbers: fn(&Scene, u32) -> Option<u64>,
-    /// Rectangles of pixels that alone are drawn, without overlap, from the first pixel of the view's region; none where all are.
-    pub parts: fn(&View) -> Option<&[Region]>,
+    /// Rectangles of pixels that alone are drawn in a main pass, without overlap, from the first pixel of the view's region; none where
+    /// all are.
+    pub parts: fn(&View, u32) -> Option<&[Region]>,
     /// Whether it covers no pixels but those of the volume's box, each once, and its fragments read targets at their own pixel only.
     pub within_box: bool,
     /// Whether those of its triangles alone are drawn whose corners go round to the left in the picture.
     pub front_only: bool,
-    /// The fragments of a pixel, in f64.
+    /// The fragments of a pixel that is in such a rectangle, in f64.
     pub hits: fn(&Scene, &View, Sample) -> Hits,
+}
+
+impl Geometry {
+    /// Whether a pixel, column and row of the picture, is drawn in a main pass.
+    pub fn draws(&self, view: &View, pass: u32, [column, row]: [u32; 2]) -> bool {
+        let within = |parts: &[Region]| {
+            let place = [column.wrapping_sub(view.region.x), row.wrapping_sub(view.region.y)];
+            parts.iter().any(|part| part.contains(place))
+        };
+        (self.parts)(view, pass).is_none_or(within)
+    }
 }
 
 /// Where a pixel is asked for its fragments.

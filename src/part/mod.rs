@@ -117,11 +117,12 @@ impl Group {
 #[derive(Clone, Debug)]
 pub enum Work {
     Draw(Draw),
-    /// Colour image to depth image, by way of a buffer.
+    /// Colour image to depth image, by way of a buffer: all of it, or where main pass `of` draws.
     Copy {
         from: Resource,
         by: Resource,
         to: Resource,
+        of: Option<u32>,
     },
     /// To transparent black.
     Clear(Resource),

@@ -309,6 +309,12 @@ impl<'a> Context<'a> {
         })
     }
 
+    /// The main passes that draw anything, in their order: all, unless tiles are left out.
+    pub fn drawn_passes(&self) -> impl Iterator<Item = u32> {
+        let tiles = self.view.tiles.as_deref().filter(|_| self.plans());
+        (0..self.passes).filter(move |pass| tiles.is_none_or(|tiles| !tiles.live_in(*pass).is_empty()))
+    }
+
     /// Whether the frame has a feature.
     pub fn has(&self, feature: &Feature) -> bool {
         self.answer(feature).is_ok()

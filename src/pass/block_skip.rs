@@ -5,7 +5,7 @@ use ash::vk;
 use super::{constants, cull, rays};
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
-use crate::geometry::ray_begins;
+use crate::geometry::segment_begins;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -16,7 +16,7 @@ use crate::twin;
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn block_skip(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
-    let mut draw = Draw::plain(ray_begins(context.view), "block_skip.frag", twin::block_skip::block_skip);
+    let mut draw = Draw::plain(segment_begins(context.view), "block_skip.frag", twin::block_skip::block_skip);
     rays::find(context, &mut draw, &mut accesses);
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));

@@ -3,7 +3,7 @@
 use super::{constants, cull};
 use crate::feature::surface::gathered;
 use crate::feature::{self, DISTANCES, EARLY_ENDS};
-use crate::geometry::ray_begins;
+use crate::geometry::segment_begins;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -31,7 +31,7 @@ pub fn fused(context: &Context, pass: u32, form: Form) -> Step {
     let drawn = if context.has(&EARLY_ENDS) { Usage::ColorInput } else { Usage::Color };
     accesses.push(drawn.of(gathered(context)));
     accesses.extend(feature::reads(context, Hook::Sample));
-    let mut draw = Draw::plain(ray_begins(context.view), "fused.frag", twin::fused::fused);
+    let mut draw = Draw::plain(segment_begins(context.view), "fused.frag", twin::fused::fused);
     draw.define(feature::defines(context, Hook::Ray));
     draw.define(feature::defines(context, Hook::RayEnd));
     draw.specialize(feature::constants(context, Hook::Ray));

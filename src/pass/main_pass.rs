@@ -3,7 +3,7 @@
 use super::{constants, cull};
 use crate::feature::surface::gathered;
 use crate::feature::{self, ADAPTIVE, APART};
-use crate::geometry::ray_begins;
+use crate::geometry::segment_begins;
 use crate::part::access::{Access, Usage};
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -45,7 +45,7 @@ fn sampled(context: &Context, ends: bool) -> (Draw, Vec<Access>) {
     ];
     accesses.extend(feature::values(context));
     accesses.push(Usage::Color.of(gathered(context)));
-    let mut draw = Draw::plain(ray_begins(context.view), "main_pass.frag", twin::main_pass::main_pass);
+    let mut draw = Draw::plain(segment_begins(context.view), "main_pass.frag", twin::main_pass::main_pass);
     draw.specialize([constants::samples(context.scene), constants::projection(context)]);
     let hooks = [Some(Hook::Ray), ends.then_some(Hook::RayEnd), Some(Hook::Sample)];
     for hook in hooks.into_iter().flatten() {

@@ -6,7 +6,7 @@ use super::{constants, cull, rays};
 use crate::feature::layers::first_section;
 use crate::feature::surface::gathered;
 use crate::feature::{self, APART, EARLY_ENDS, ISO_SURFACE};
-use crate::geometry::ray_begins;
+use crate::geometry::segment_begins;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -21,9 +21,10 @@ pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
     // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
     let anew = context.section > first_section(context) && pass == 0;
-    let culled = !anew && (pass > 0 || form.mark != Mark::Copy);
+    let first = context.drawn_passes().next() == Some(pass);
+    let culled = !anew && (!first || form.mark != Mark::Copy);
     let twin = if anew { twin::near_neighbor::anew } else { twin::near_neighbor::near_neighbor };
-    let mut draw = Draw::plain(ray_begins(context.view), "near_neighbor.frag", twin);
+    let mut draw = Draw::plain(segment_begins(context.view), "near_neighbor.frag", twin);
     rays::find(context, &mut draw, &mut accesses);
     accesses.extend(feature::reads(context, Hook::Ray));
     accesses.extend(feature::reads(context, Hook::RayEnd));

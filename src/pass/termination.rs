@@ -5,7 +5,7 @@ use ash::vk;
 use super::{constants, cull, rays};
 use crate::feature::surface::gathered;
 use crate::feature::{self, ADAPTIVE, APART, EARLY_ENDS, ISO_SURFACE};
-use crate::geometry::ray_begins;
+use crate::geometry::segment_begins;
 use crate::part::access::Usage;
 use crate::part::form::Form;
 use crate::part::rows::{Context, Hook};
@@ -17,7 +17,7 @@ use crate::twin;
 /// Decides who takes part in main pass `pass`; runs for every fragment, since it writes depth.
 pub fn termination(context: &Context, pass: u32, form: Form) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
-    let mut draw = Draw::plain(ray_begins(context.view), "termination.frag", twin::termination::termination);
+    let mut draw = Draw::plain(segment_begins(context.view), "termination.frag", twin::termination::termination);
     rays::find(context, &mut draw, &mut accesses);
     accesses.extend(context.has(&EARLY_ENDS).then_some(Usage::Sampled.of(gathered(context))));
     accesses.extend(context.has(&ADAPTIVE).then_some(Usage::Sampled.of(resource::REACHED)));

@@ -24,7 +24,7 @@ use crate::scene::gathered::Gathered;
 use crate::scene::settings::{Builder, Cull, DepthFormat, LeftOpen, Mark};
 use crate::scene::texture::TextureChoice;
 use crate::scene::view::View;
-use crate::structure::{Lookup, content};
+use crate::structure::Lookup;
 use builds::{Asset, Build, Builds};
 use left_out::{left_out, whole_diagonal};
 
@@ -180,9 +180,6 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
             view.sliced(scene, stack, slices)?
         }
         None if method.goes_through_cells() => view.through_cells(scene, choice.most_texels),
-        None if feature::tiles::only_live(scene, method) => {
-            view.in_tiles(content::boxes(scene).into_iter(), feature::tiles::pixels_of_a_draw(method))
-        }
         None => view,
     };
     if let Some(shells) = scene.shells.as_ref().filter(|_| method.traversal == Traversal::Shells) {
@@ -190,6 +187,10 @@ pub fn plan_for(scene: &Scene, choice: Choice) -> Result<Plan> {
     }
     let passes = passes(scene, &view, method);
     limits::check(scene, &view, method, passes)?;
+    let view = match feature::tiles::only_live(scene, method) {
+        true => feature::tiles::draw_live(scene, method, view, passes),
+        false => view,
+    };
     let context = Context::new(scene, &view, method, choice.form, passes);
     let (frame, left_out) = match passes {
         0 if scene.backdrop.is_none() && !scene.polygons.show() || view.region.pixels() == 0 => {

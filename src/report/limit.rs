@@ -42,7 +42,9 @@ impl Limit {
             runs.iter().filter(move |(_, run)| alike(run))
         };
         let clock = runs.iter().find_map(|(_, run)| run.saved.as_ref()?.clock).unwrap_or(Clock::Gpu);
-        let (pass_ms, any_is_empty) = empty_pass(same().map(|(_, run)| *run), clock)?;
+        // Passes in live tiles are no whole ones.
+        let whole = same().map(|(_, run)| *run).filter(|run| !run.draws_live_tiles());
+        let (pass_ms, any_is_empty) = empty_pass(whole, clock)?;
         let rest = all.milliseconds(clock)? - f64::from(all.passes) * pass_ms;
         let segment_ms = rest.max(0.0) / all.fragments.main.max(1) as f64;
         let ms = ideal as f64 * segment_ms + f64::from(all.passes) * pass_ms;
@@ -76,8 +78,11 @@ fn empty_pass<'a>(runs: impl Iterator<Item = &'a Run>, clock: Clock) -> Option<(
     let passes = runs.flat_map(|run| {
         let device = run.milliseconds(Clock::Gpu).unwrap_or(f64::NAN);
         let scale = run.milliseconds(clock).unwrap_or(f64::NAN) / device;
+        // Those behind the last one with fragments may not have been run: no ray was left.
+        let fragments = &run.fragments.main_per_pass;
+        let begun = fragments.iter().rposition(|count| *count > 0).map_or(0, |last| last + 1);
         let times = run.gpu_ms_per_pass.iter().flat_map(|times| &times.main).map(move |ms| ms * scale);
-        times.zip(run.fragments.main_per_pass.iter().copied())
+        times.zip(fragments.iter().copied()).take(begun)
     });
     let (mut empty, mut shortest) = (Vec::new(), f64::INFINITY);
     for (ms, fragments) in passes {

@@ -1,5 +1,6 @@
 //! What is to be seen, and by which method: volume, transfer function, camera, sampling, settings. Knows no Vulkan.
 
+pub mod along_rays;
 pub mod backdrop;
 pub mod builtin;
 pub mod camera;
@@ -34,6 +35,7 @@ pub mod slices;
 pub mod surface;
 pub mod tetrahedra;
 pub mod texture;
+pub mod tile_set;
 pub mod tiles;
 pub mod transfer;
 pub mod view;

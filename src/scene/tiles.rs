@@ -1,57 +1,104 @@
 //! Tiles of pixels whose rays may come to something that shows: all others need no fragment.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
+use super::along_rays::AlongRays;
 use super::region::Region;
+use super::tile_set::{SIDE, TileSet};
 use crate::math::ray::ViewRays;
-
-/// Pixels along a side of a tile.
-const SIDE: u32 = 8;
 
 /// Pixels that a box counts as larger on each side: rays are rounded where single precision has them.
 const MARGIN: f64 = 1.0;
 
-/// The live tiles of a view, counted from the first pixel of its region.
+/// Groups of main passes that are told from each other, at the most: what tiles take does not grow with passes beyond.
+const GROUPS: u32 = 128;
+
+/// Main passes that draw tiles.
+pub struct InPasses {
+    pub along: AlongRays,
+    /// Steps from sample to sample, volume units.
+    pub step: f64,
+    /// M, samples of a main pass.
+    pub samples: u32,
+    /// N, main passes.
+    pub passes: u32,
+    /// A draw takes as long as so many pixels: live tiles are those of few rectangles.
+    pub draw: u64,
+}
+
+impl InPasses {
+    /// Main passes of the samples that may lie within a box, given by two corners in volume space.
+    fn of_box(&self, of: [DVec3; 2]) -> Range<u32> {
+        let [first, last] = self.along.lengths(of).map(|length| length / self.step);
+        // A sample may stand for what is behind it, up to a step, and its place may be half a step behind its number. One more on
+        // either side is for rounding. The casts saturate.
+        let [first, last] = [first - 2.5, last + 1.0].map(|sample| sample as u32 / self.samples);
+        first.min(self.passes)..last.saturating_add(1).min(self.passes)
+    }
+
+    /// Main passes that are not told from each other.
+    fn in_group(&self) -> u32 {
+        self.passes.div_ceil(GROUPS).max(1)
+    }
+}
+
+/// The live tiles of a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiles {
     region: Region,
-    /// Tiles in a row.
-    columns: u32,
-    /// A flag a tile, row after row.
-    flags: Vec<bool>,
-    /// Rectangles that cover live tiles, each pixel once, from the first pixel of the region.
+    /// Those in which anything may show.
+    tiles: TileSet,
     live: Vec<Region>,
+    /// The rectangles of groups of main passes.
+    groups: Vec<OfPasses>,
+    /// Main passes of a group.
+    in_group: u32,
+}
+
+/// Rectangles of live tiles, each pixel once, from the first pixel of the region.
+#[derive(Clone, Debug, PartialEq)]
+struct OfPasses {
+    /// In these passes.
+    here: Vec<Region>,
+    /// In these or later ones.
+    from: Vec<Region>,
 }
 
 impl Tiles {
-    /// The tiles of a region that any of the boxes may be seen in, which are given by two corners in volume space. Where a draw takes as long as
-    /// so many pixels, live tiles are those of few rectangles around them.
-    pub fn around(rays: &ViewRays, region: Region, boxes: impl Iterator<Item = [DVec3; 2]>, draw: Option<u64>) -> Self {
-        let [columns, rows] = region.size().map(|pixels| pixels.div_ceil(SIDE));
-        let flags = vec![false; columns as usize * rows as usize];
-        let mut tiles = Self { region, columns, flags, live: Vec::new() };
-        if tiles.flags.is_empty() {
-            return tiles;
+    /// The tiles of a region that any of the boxes may be seen in, which are given by two corners in volume space; in each main pass those
+    /// of its samples, where there are passes.
+    pub fn around(
+        rays: &ViewRays,
+        region: Region,
+        boxes: impl Iterator<Item = [DVec3; 2]>,
+        passes: Option<&InPasses>,
+    ) -> Self {
+        let mut tiles = TileSet::none(region.size());
+        let in_group = passes.map_or(1, InPasses::in_group);
+        let count = passes.map_or(0, |of| of.passes.div_ceil(in_group));
+        let mut groups = vec![tiles.clone(); count as usize];
+        for of in boxes {
+            let seen = seen(rays, region, of);
+            tiles.add(&seen);
+            let passes = passes.map_or(0..0, |passes| passes.of_box(of));
+            let of_box = passes.start / in_group..passes.end.div_ceil(in_group);
+            of_box.for_each(|group| groups[group as usize].add(&seen));
         }
-        let pixels = rays.to_picture();
-        for [least, greatest] in boxes {
-            let corner = |i: usize| {
-                let pick = |axis: usize| if i >> axis & 1 == 0 { least[axis] } else { greatest[axis] };
-                pixels * (DVec3::new(pick(0), pick(1), pick(2)) - rays.origin)
-            };
-            let placed: [DVec3; 8] = std::array::from_fn(corner);
-            if !rays.parallel() && placed.iter().any(|place| place.z < rays.near) {
-                // Some of it is beside the eye or behind it, and may show anywhere.
-                tiles.flags.fill(true);
-                break;
-            }
-            let place = |of: DVec3| if rays.parallel() { [of.x, of.y] } else { [of.x / of.z, of.y / of.z] };
-            tiles.add(placed.map(place));
+        let mut rest = TileSet::none(region.size());
+        let mut list = Vec::with_capacity(groups.len());
+        for mut here in groups.into_iter().rev() {
+            passes.iter().for_each(|passes| here.fill_bands(passes.draw));
+            rest.join(&here);
+            // Of others no ray goes on.
+            list.push(OfPasses { here: here.rectangles(), from: rest.rectangles() });
         }
-        if let Some(draw) = draw {
-            tiles.fill_bands(draw);
-        }
-        Self { live: tiles.rectangles(), ..tiles }
+        list.reverse();
+        // Rays of all that passes draw are begun.
+        tiles.join(&rest);
+        passes.iter().for_each(|passes| tiles.fill_bands(passes.draw));
+        Self { region, live: tiles.rectangles(), tiles, groups: list, in_group }
     }
 
     /// Rectangles that cover live tiles, each pixel once, from the first pixel of the region.
@@ -59,95 +106,44 @@ impl Tiles {
         &self.live
     }
 
-    /// Tiles that the rectangle around places of the picture reaches are live.
-    fn add(&mut self, places: [[f64; 2]; 8]) {
-        let origin = [self.region.x, self.region.y];
-        let rows = self.flags.len() as u32 / self.columns;
-        let [across, down] = [(0, self.columns), (1, rows)].map(|(axis, tiles)| {
-            let tile = |pixel: f64| (pixel - f64::from(origin[axis])) / f64::from(SIDE);
-            let low = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
-            let high = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
-            // The casts saturate.
-            tile(low - MARGIN).floor() as u32..(tile(high + MARGIN).ceil() as u32).min(tiles)
-        });
-        for row in down {
-            let first = (row * self.columns) as usize;
-            let [begin, end] = [across.start, across.end].map(|column| first + column as usize);
-            self.flags[begin.min(end)..end].fill(true);
-        }
+    /// The same of tiles that are live in a main pass; of a loop, which has no passes, all.
+    pub fn live_in(&self, pass: u32) -> &[Region] {
+        self.of_group(pass).map_or(self.live(), |of| &of.here)
     }
 
-    /// Fills bands of rows from their first live tile to their last, so that the pixels and the draws of all bands take the least time, a draw
-    /// that of so many pixels.
-    fn fill_bands(&mut self, draw: u64) {
-        let rows: Vec<Option<[usize; 2]>> = self.flags.chunks_exact(self.columns as usize).map(live_columns).collect();
-        // The least of what the rows before each one take, and where the last band of it begins; none where that row is empty.
-        let mut least: Vec<(u64, Option<usize>)> = vec![(0, None)];
-        for (last, row) in rows.iter().enumerate() {
-            let mut best = (if row.is_some() { u64::MAX } else { least[last].0 }, None);
-            let mut band: Option<[usize; 2]> = None;
-            for first in (0..=last).rev().take_while(|_| row.is_some()) {
-                band = joined(band, rows[first]);
-                let wide = band.map_or(0, |[begin, end]| end - begin);
-                let tiles = (wide * (last + 1 - first)) as u64;
-                let all = least[first].0 + draw + tiles * u64::from(SIDE * SIDE);
-                best = if all < best.0 { (all, Some(first)) } else { best };
-            }
-            least.push(best);
-        }
-        let mut end = rows.len();
-        while end > 0 {
-            let Some(first) = least[end].1 else {
-                end -= 1;
-                continue;
-            };
-            if let Some([from, to]) = rows[first..end].iter().fold(None, |band, row| joined(band, *row)) {
-                for row in self.flags.chunks_exact_mut(self.columns as usize).take(end).skip(first) {
-                    row[from..to].fill(true);
-                }
-            }
-            end = first;
-        }
+    /// The same of tiles that are live in a main pass or in a later one.
+    pub fn live_from(&self, pass: u32) -> &[Region] {
+        self.of_group(pass).map_or(self.live(), |of| &of.from)
+    }
+
+    fn of_group(&self, pass: u32) -> Option<&OfPasses> {
+        self.groups.get((pass / self.in_group) as usize)
     }
 
     /// Whether the tile of a pixel, column and row of the picture, is live.
     pub fn contains(&self, [column, row]: [u32; 2]) -> bool {
-        let tile = |pixel: u32, first: u32| (pixel - first) / SIDE;
-        let at = || tile(row, self.region.y) * self.columns + tile(column, self.region.x);
-        self.region.contains([column, row]) && self.flags[at() as usize]
-    }
-
-    /// Live tiles, those of a row that touch as one, and with those below that have the same columns.
-    fn rectangles(&self) -> Vec<Region> {
-        let [width, height] = self.region.size();
-        let mut found: Vec<Region> = Vec::new();
-        for (row, flags) in self.flags.chunks_exact(self.columns as usize).enumerate() {
-            let y = row as u32 * SIDE;
-            let height = SIDE.min(height - y);
-            let tile = |column: usize| column as u32 * SIDE;
-            for run in flags.iter().enumerate().collect::<Vec<_>>().chunk_by(|a, b| a.1 == b.1).filter(|run| *run[0].1)
-            {
-                let (x, end) = (tile(run[0].0), tile(run[0].0 + run.len()).min(width));
-                let above =
-                    found.iter_mut().find(|above| (above.x, above.columns().end, above.rows().end) == (x, end, y));
-                match above {
-                    Some(above) => above.height += height,
-                    None => found.push(Region { x, y, width: end - x, height }),
-                }
-            }
-        }
-        found
+        self.region.contains([column, row]) && self.tiles.contains([column - self.region.x, row - self.region.y])
     }
 }
 
-/// From the first live tile of a row to one past the last.
-fn live_columns(row: &[bool]) -> Option<[usize; 2]> {
-    Some([row.iter().position(|live| *live)?, row.iter().rposition(|live| *live)? + 1])
-}
-
-fn joined(one: Option<[usize; 2]>, other: Option<[usize; 2]>) -> Option<[usize; 2]> {
-    match (one, other) {
-        (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
-        (one, other) => one.or(other),
+/// Columns and rows of tiles of a region that a box may be seen in.
+fn seen(rays: &ViewRays, region: Region, [least, greatest]: [DVec3; 2]) -> [Range<usize>; 2] {
+    let pixels = rays.to_picture();
+    let corner = |i: usize| {
+        let pick = |axis: usize| if i >> axis & 1 == 0 { least[axis] } else { greatest[axis] };
+        pixels * (DVec3::new(pick(0), pick(1), pick(2)) - rays.origin)
+    };
+    let placed: [DVec3; 8] = std::array::from_fn(corner);
+    if !rays.parallel() && placed.iter().any(|place| place.z < rays.near) {
+        // Some of it is beside the eye or behind it, and may show anywhere.
+        return [0..usize::MAX, 0..usize::MAX];
     }
+    let places = placed.map(|of| if rays.parallel() { [of.x, of.y] } else { [of.x / of.z, of.y / of.z] });
+    [(0, region.x), (1, region.y)].map(|(axis, origin)| {
+        let tile = |pixel: f64| (pixel - f64::from(origin)) / f64::from(SIDE);
+        let low = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
+        let high = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
+        // The casts saturate.
+        tile(low - MARGIN).floor() as usize..tile(high + MARGIN).ceil() as usize
+    })
 }

@@ -12,7 +12,7 @@ use super::single_rays::SingleRays;
 use super::slice_polygons::SlicePolygons;
 use super::slices::{SliceSurface, Slices, Stack};
 use super::tetrahedra::{CellsView, Tetrahedra};
-use super::tiles::Tiles;
+use super::tiles::{InPasses, Tiles};
 use crate::error::{Error, Result};
 use crate::math::polyhedron::{HalfSpace, Polyhedron};
 use crate::math::ray::ViewRays;
@@ -92,10 +92,10 @@ impl View {
         Self { cells: scene.tetrahedra.as_ref().map(of), ..self }
     }
 
-    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space; `draw`: see
+    /// The same of which only tiles are drawn that any of the boxes may be seen in, each given by two corners in volume space; `passes`: see
     /// [`Tiles::around`].
-    pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>, draw: Option<u64>) -> Self {
-        Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes, draw))), ..self }
+    pub fn in_tiles(self, boxes: impl Iterator<Item = [DVec3; 2]>, passes: Option<&InPasses>) -> Self {
+        Self { tiles: Some(Arc::new(Tiles::around(&self.rays, self.region, boxes, passes))), ..self }
     }
 
     /// The rays of the whole picture, as single floats find them: the same, whatever part of it is drawn.

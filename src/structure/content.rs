@@ -11,9 +11,9 @@ use crate::scene::{Field, Scene};
 /// Blocks along the longest side of a volume.
 const BLOCKS: usize = 32;
 
-/// Boxes, each by two corners in volume space, that hold all that shows; of blocks that have such beside each of their faces none, since
-/// nothing is seen of them from anywhere that is not seen of those.
-pub fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
+/// Boxes, each by two corners in volume space, that hold all that shows; without `hidden` none of blocks that have such beside each of their
+/// faces, since nothing is seen of them from anywhere that is not seen of those.
+pub fn boxes(scene: &Scene, hidden: bool) -> Vec<[DVec3; 2]> {
     let field = &*scene.field;
     let side = side(field);
     let support = Support::of(&Shown::in_x(scene));
@@ -29,7 +29,7 @@ pub fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
     let open: Vec<bool> = field.block_ranges(|field| ranges(field, side).1).iter().map(shows).collect();
     let strides = [1, blocks[0], blocks[0] * blocks[1]];
     let place = |i: usize| [0, 1, 2].map(|axis| i / strides[axis] % blocks[axis]);
-    let hidden = |i: usize| {
+    let surrounded = |i: usize| {
         let at = place(i);
         (0..3).all(|axis| {
             let inside = at[axis] > 0 && at[axis] + 1 < blocks[axis];
@@ -42,7 +42,7 @@ pub fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
             |end: usize| DVec3::from_array([0, 1, 2].map(|axis| coordinate(field, axis, (at[axis] + end) * side)));
         [corner(0), corner(1)].map(|corner| corner * field.extent())
     };
-    (0..open.len()).filter(|i| open[*i] && !hidden(*i)).map(corners).collect()
+    (0..open.len()).filter(|i| open[*i] && (hidden || !surrounded(*i))).map(corners).collect()
 }
 
 fn side(field: &Field) -> usize {

@@ -9,6 +9,7 @@ use depthleap::report::cost::{CostRow, Sweep};
 use depthleap::report::limit::Limit;
 use depthleap::report::plot::cost_svg;
 use depthleap::report::{branching, verdict};
+use depthleap::scene::settings::Tiles;
 
 use crate::runs::{results, run};
 
@@ -223,6 +224,13 @@ fn limit_is_what_shows_at_the_cost_of_all_and_empty_passes() {
     let full = by_passes("rc-ert", &[90, 90, 90, 90], &[6.0, 6.0, 6.0, 5.0], 23.0);
     let limit = Limit::of(&[("rc".to_owned(), &all), ("rc-ert".to_owned(), &full)], 80).expect("a limit");
     assert_eq!((limit.distances.len(), limit.any_is_empty, limit.pass_ms), (2, false, 5.0));
+    // Nor is one that was not run, since no ray was left, or one in live tiles.
+    let ended = by_passes("rc-ert", &[90, 90, 90, 0], &[6.0, 6.0, 5.0, 0.1], 17.1);
+    let mut in_tiles = by_passes("nn-omni", &[40, 0, 0, 60], &[3.0, 0.1, 0.1, 3.0], 6.2);
+    in_tiles.settings.method.tiles = Tiles::Live;
+    let runs = [("rc".to_owned(), &all), ("rc-ert".to_owned(), &ended), ("nn-omni".to_owned(), &in_tiles)];
+    let limit = Limit::of(&runs, 80).expect("a limit");
+    assert_eq!((limit.distances.len(), limit.any_is_empty, limit.pass_ms), (3, false, 5.0));
     assert_eq!(Limit::of(&[("nn-omni".to_owned(), &omni)], 80), None);
     assert_eq!(Limit::of(&labelled, 81), None, "of another length of segments");
     // By the process' clock, of which passes have their part.
