@@ -185,6 +185,9 @@ fn passes_without_live_tiles_are_left_out() {
     };
     let (list, passes) = mains(&scene);
     assert!(!list.is_empty() && list.len() < passes as usize && list[0] > 0, "{list:?} of {passes}");
+    let lines = plan(&scene, method::papers_form(NN_OMNI.name())).unwrap().lines().join("\n");
+    let others = format!("  - {} of the main passes left out", passes as usize - list.len());
+    assert!(lines.contains(&others) && lines.contains(" pixels, rectangles: 1]"), "{lines}");
     let mut whole = scene;
     whole.settings.method.planner = false;
     assert_eq!(mains(&whole).0.len(), mains(&whole).1 as usize, "without the planner nothing is left out");

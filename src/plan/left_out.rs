@@ -30,6 +30,14 @@ pub(super) fn left_out(context: &Context) -> Vec<LeftOut> {
         let Region { width: w, height: h, .. } = view.region;
         left_out.push(LeftOut::new("pixels of targets", format!("the box covers {w} x {h} of {width} x {height}")));
     }
+    let drawn = context.drawn_passes().count();
+    if view.tiles.is_some() && drawn < passes as usize {
+        let others = passes as usize - drawn;
+        left_out.push(LeftOut::new(
+            format!("{others} of the main passes"),
+            "nothing can show in any tile of them".to_owned(),
+        ));
+    }
     if context.method.loops() {
         if scene.settings.sampling.passes > 0 {
             left_out.push(LeftOut::new("forced main passes", "one pass holds the whole ray"));

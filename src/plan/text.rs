@@ -6,13 +6,14 @@ use super::Plan;
 use crate::part::access::{Access, Usage};
 use crate::part::{Draw, Step, Work};
 use crate::scene::texture::Within;
+use crate::scene::view::View;
 
 impl Plan {
     /// One line a step: number, name, queue, what it reads -> what it writes; then how the volume is kept, and what was
     /// left out.
     pub fn lines(&self) -> Vec<String> {
         let mut lines: Vec<String> =
-            self.steps.iter().enumerate().map(|(i, step)| format!("{:>3} {}", i + 1, line(step))).collect();
+            self.steps.iter().enumerate().map(|(i, step)| format!("{:>3} {}", i + 1, line(step, &self.view))).collect();
         lines.extend(self.texture.map(|texture| {
             let (name, x, pixels) = (texture.name(), Within(texture.error), Within(self.pixel_error));
             let on = if texture.measured { "" } else { " on a device that interpolates in f32 (none was asked)" };
@@ -28,7 +29,7 @@ fn least(draw: &Draw) -> String {
     if draw.least > 0.0 { format!("{:.6}", draw.least) } else { "0".to_owned() }
 }
 
-fn line(step: &Step) -> String {
+fn line(step: &Step, view: &View) -> String {
     let names = |chosen: fn(Usage) -> bool| -> String {
         let of = |a: &&Access| chosen(a.usage) && a.usage != Usage::Vertices;
         let names: Vec<_> = step.accesses.iter().filter(of).map(|a| a.resource.label()).collect();
@@ -49,6 +50,10 @@ fn line(step: &Step) -> String {
                 detail = format!("  [discard unless {} <= stored <= {:.6}]", least(draw), draw.bound);
             } else if draw.bound < 1.0 {
                 detail = format!("  [discard unless stored <= {:.6}]", draw.bound);
+            }
+            if let Some(parts) = (draw.geometry.parts)(view, step.pass) {
+                let pixels = parts.iter().map(|part| part.pixels()).sum::<u64>();
+                detail += &format!("  [{pixels} pixels, rectangles: {}]", parts.len());
             }
             ("graphics", detail)
         }

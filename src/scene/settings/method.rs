@@ -102,7 +102,8 @@ pub enum Tiles {
     Auto,
     /// All that the volume's box covers.
     All,
-    /// Those behind which something may show: no ray is begun elsewhere, and nothing else counts as a fragment.
+    /// Those behind which something may show, in each pass those in which its samples may: no ray is begun elsewhere, and nothing else counts
+    /// as a fragment.
     Live,
 }
 
