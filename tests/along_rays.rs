@@ -16,8 +16,8 @@ fn seen_from(eye: [f64; 3], round: usize) -> Scene {
     settings.volume.builtin = Some("constant:20x33x27".to_owned());
     settings.image.size = [64, 48];
     settings.camera.eye = eye;
-    settings.camera.height = (round % 3 == 0).then_some(1.2);
-    if round % 4 == 0 {
+    settings.camera.height = round.is_multiple_of(3).then_some(1.2);
+    if round.is_multiple_of(4) {
         settings.clips = vec![ClipSettings { plane: Some([0.4, -1.0, 0.3, 0.1]), ..ClipSettings::default() }];
     }
     read::scene(&settings).unwrap()
