@@ -36,7 +36,7 @@ fn passes(context: &Context, steps: &mut Steps) {
     let mut marked = None;
     for pass in context.drawn_passes() {
         if marked.is_none() {
-            steps.push(near_neighbor(context, pass, form));
+            steps.push(near_neighbor(context, pass, true, form));
         }
         let beside = context.has(&MARK_COPIES).then_some(resource::MARKS);
         decided(context, steps, pass, marked, beside);

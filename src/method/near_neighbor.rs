@@ -52,10 +52,11 @@ pub const NN_CONE: Method = by(
 pub(super) fn passes(context: &Context, steps: &mut Steps) {
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     empty(context, steps);
-    let first = context.drawn_passes().next();
+    let mut first = true;
     for pass in context.drawn_passes() {
-        steps.push(near_neighbor(context, pass, form));
-        decided(context, steps, pass, Some(pass).filter(|_| Some(pass) != first), None);
+        steps.push(near_neighbor(context, pass, first, form));
+        decided(context, steps, pass, (!first).then_some(pass), None);
+        first = false;
         let end = section_end(pass, context.passes) as f32;
         steps.push(main(context, pass, Some((form.cull, end))));
     }

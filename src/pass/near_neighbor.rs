@@ -16,12 +16,12 @@ use crate::scene::settings::Mark;
 use crate::twin;
 use crate::twin::section::section_end;
 
-/// Runs before main pass `pass`, for rays whose stored section begins at or before it.
-pub fn near_neighbor(context: &Context, pass: u32, form: Form) -> Step {
+/// Runs before main pass `pass`, for rays whose stored section begins at or before it; where it is the first of its kind, before which
+/// nothing is marked, for all of them.
+pub fn near_neighbor(context: &Context, pass: u32, first: bool, form: Form) -> Step {
     let mut accesses = vec![Usage::Vertices.of(resource::BOX), Usage::Sampled.of(resource::FRAME)];
-    // Before the first pass nothing is marked yet, and every ray takes part. Behind a layer rays begin anew [Thesis ch. 6 §4].
-    let anew = context.section > first_section(context) && pass == 0;
-    let first = context.drawn_passes().next() == Some(pass);
+    // Behind a layer rays begin anew [Thesis ch. 6 §4].
+    let anew = context.section > first_section(context) && first;
     let culled = !anew && (!first || form.mark != Mark::Copy);
     let twin = if anew { twin::near_neighbor::anew } else { twin::near_neighbor::near_neighbor };
     let mut draw = Draw::plain(segment_begins(context.view), "near_neighbor.frag", twin);
