@@ -8,6 +8,7 @@ pub mod cells;
 mod changes;
 pub mod content;
 pub mod distance;
+mod ends;
 pub mod gradients;
 pub mod grid;
 pub mod octants;
