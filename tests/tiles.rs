@@ -193,6 +193,24 @@ fn passes_without_live_tiles_are_left_out() {
     assert_eq!(mains(&whole).0.len(), mains(&whole).1 as usize, "without the planner nothing is left out");
 }
 
+/// Whichever main pass is the first that draws, what rays gather is written before it is read.
+#[test]
+fn what_rays_gather_is_written_first() {
+    for method in [&RC_BLOCK, &NN_OMNI, &NN_OPTIMAL_FUSED] {
+        for (samples, depth) in [(2, 3.0), (64, 3.0), (1, 9.0)] {
+            let scene = live(&scene("gaussian:40", "surface", |s| {
+                (s.method.name, s.camera.eye) = (method.name(), [0.0, 0.0, depth]);
+                s.sampling.samples_per_pass = samples;
+            }));
+            let lines = plan(&scene, method::papers_form(method.name())).unwrap().lines();
+            let first = lines.iter().find(|line| line.contains("accumulated")).expect("rays gather something");
+            let (reads, writes) = first.split_once("->").expect("a step writes something");
+            let written_first = !reads.contains("accumulated") && writes.contains("accumulated");
+            assert!(written_first, "{}, M = {samples}: {first}", method.name().to_string());
+        }
+    }
+}
+
 /// A box beside the picture has no pixels, and no tiles.
 #[test]
 fn views_beside_the_volume_have_no_tiles() {

@@ -182,7 +182,8 @@ pub fn switched(context: &Context, steps: &mut Steps, first: u32, decide: fn(&Co
     let Some(form) = context.form.filter(|_| context.has(&DECISIONS)) else { return unswitched(context, steps) };
     // Behind a layer many rays have nothing to do, and a segment that ends at a surface may be the first.
     let first = if context.has(&LAYER_BEFORE) || context.has(&APART) { 0 } else { first };
-    if first == 0 {
+    // Else a main pass comes before all that look at what rays have gathered.
+    if context.drawn_passes().next().is_none_or(|pass| pass >= first) {
         empty(context, steps);
     }
     let mut decides = None;

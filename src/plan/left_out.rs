@@ -31,7 +31,7 @@ pub(super) fn left_out(context: &Context) -> Vec<LeftOut> {
         left_out.push(LeftOut::new("pixels of targets", format!("the box covers {w} x {h} of {width} x {height}")));
     }
     let drawn = context.drawn_passes().count();
-    if view.tiles.is_some() && drawn < passes as usize {
+    if view.tiles.is_some() && !context.method.loops() && drawn < passes as usize {
         let others = passes as usize - drawn;
         left_out.push(LeftOut::new(
             format!("{others} of the main passes"),

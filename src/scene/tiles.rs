@@ -80,10 +80,15 @@ impl Tiles {
         let count = passes.map_or(0, |of| of.passes.div_ceil(in_group));
         let mut groups = vec![tiles.clone(); count as usize];
         for of in boxes {
+            let of_passes = passes.map(|passes| passes.of_box(of));
+            if of_passes.as_ref().is_some_and(Range::is_empty) {
+                // Behind all samples, or before them.
+                continue;
+            }
             let seen = seen(rays, region, of);
             tiles.add(&seen);
-            let passes = passes.map_or(0..0, |passes| passes.of_box(of));
-            let of_box = passes.start / in_group..passes.end.div_ceil(in_group);
+            let of_passes = of_passes.unwrap_or_default();
+            let of_box = of_passes.start / in_group..of_passes.end.div_ceil(in_group);
             of_box.for_each(|group| groups[group as usize].add(&seen));
         }
         let mut rest = TileSet::none(region.size());
