@@ -206,7 +206,7 @@ fn what_rays_gather_is_written_first() {
             let first = lines.iter().find(|line| line.contains("accumulated")).expect("rays gather something");
             let (reads, writes) = first.split_once("->").expect("a step writes something");
             let written_first = !reads.contains("accumulated") && writes.contains("accumulated");
-            assert!(written_first, "{}, M = {samples}: {first}", method.name().to_string());
+            assert!(written_first, "{}, M = {samples}: {first}", method.name());
         }
     }
 }
